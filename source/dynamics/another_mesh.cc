@@ -3,8 +3,6 @@
 #include <tread/dynamics/explicit_dynamics.h>
 #include <tread/mesh/moved_fields.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -18,7 +16,7 @@ namespace tread
     const int carrier = carrier_of(node);
     if (carrier < 0)
       return Vector3{};
-    const RigidMotion &motion = motions[carrier];
+    const RigidMotion &motion = parts.motions()[carrier];
     return 0.5 * std::ldexp(time_step, levels.of_node[node]) *
            cross(motion.turning, velocity - motion.velocity);
   }
@@ -26,8 +24,8 @@ namespace tread
 
   void ExplicitDynamics::take_nodes(ExplicitDynamics &before)
   {
-    before.find_motions();
-    find_motions();
+    before.parts.find_motions();
+    parts.find_motions();
     const unsigned int n = before.mesh.nodes.size();
     NodalField         x = before.state.positions(), v(n), reference(n);
     for (unsigned int i = 0; i < n; ++i)
@@ -57,7 +55,7 @@ namespace tread
         // Where one mesh has a chord and the other the surface.
         const Vector3 off = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.} - moved[2][i];
         const int     carrier = carrier_of(i);
-        state.set_position(i, moved[0][i] + (carrier >= 0 ? carriers[carrier]->turned(off) : off));
+        state.set_position(i, moved[0][i] + (carrier >= 0 ? parts.carriers()[carrier]->turned(off) : off));
         state.v[i] = moved[1][i];
       }
     std::size_t next = 3;
@@ -70,7 +68,7 @@ namespace tread
         ++next;
       }
     // The time step is that of the cells as they are now.
-    const double time_step = parameters.courant_number * critical_time_step();
+    const double time_step = parameters.courant_number * critical.seconds();
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       state.v[i] -= turning_in_half_a_step(i, state.v[i], time_step);
   }
@@ -83,11 +81,11 @@ namespace tread
       if (const int carrier = carrier_of(i);
           carrier >= 0 && inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
         {
-          const RigidMotion &motion = motions[carrier];
+          const RigidMotion &motion = parts.motions()[carrier];
           const Vector3      arm    = state.position(i) - motion.middle,
                         off_axle    = arm - dot(motion.axle, arm) * motion.axle,
                         v           = motion.velocity + cross(motion.turning, arm);
-          const double nominal      = carriers[carrier]->angular_velocity();
+          const double nominal      = parts.carriers()[carrier]->angular_velocity();
           // What moves rigidly with it, and the potential that holds it on its circle.
           sum.add(0.5 * (1. / inverse_mass[i] - true_mass[i]) *
                   (dot(v, v) + nominal * nominal * dot(off_axle, off_axle)));
@@ -103,8 +101,7 @@ namespace tread
     if (!synchronised())
       throw std::logic_error("a motion goes on after " + std::to_string(state.n_steps) +
                              " steps with cells that are due every " + std::to_string(1u << max_level()));
-    const double unaccounted   = before.ledger().residual(),
-                 damping_power = before.begin_damping_sample().power;
+    const double unaccounted = before.ledger().residual(), damping_power = before.books.begin_sample().power;
     take_nodes(before);
     if (contact)
       contact->go_on_from(*before.contact);
@@ -117,31 +114,12 @@ namespace tread
     set_inertia();
     prepare_step();
 
-    const bool is_first_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm) == 0;
-    totals                   = before.totals;
-    // What was damped since the last sample, in steps of another length.
-    if (is_first_rank)
-      totals.damping.add(before.damping_since_sample(damping_power));
-    last_damping_power  = damping_power;
-    last_damping_step   = state.n_steps;
-    damping_is_sampled  = true;
-    start_kinetic       = before.start_kinetic;
-    start_potential     = before.start_potential;
-    start_strain        = before.start_strain;
-    start_external_work = before.start_external_work;
-    start_gross_work    = before.start_gross_work;
-    start_springs       = before.start_springs;
-    start_dissipated    = before.start_dissipated;
-    spent               = before.spent;
+    books.go_on_from(before.books, damping_power);
+    spent = before.spent;
     // A chord has less mass than the arc. The hub makes up for it, but not for what density scaling makes of
     // it: that comes with the speed of the wheel, and is no loss of its cells' motion.
     const double added = energy_of_added_mass() - before.energy_of_added_mass(),
                  lost  = ledger().residual() - unaccounted + added;
-    if (is_first_rank)
-      {
-        totals.window.add(lost);
-        totals.external_work.add(added);
-        totals.gross_work.add(std::abs(added));
-      }
+    books.count_window(lost, added);
   }
 } // namespace tread

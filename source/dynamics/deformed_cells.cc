@@ -2,7 +2,7 @@
 // What large deformation does to the cells: turned inside out, or too fast for the time step.
 #include <tread/base/format.h>
 #include <tread/base/went_wrong.h>
-#include <tread/dynamics/explicit_dynamics.h>
+#include <tread/dynamics/critical_step.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -58,48 +58,19 @@ namespace tread
   } // namespace
 
 
-  std::string ExplicitDynamics::place_of_worst(const bool              is_worst,
-                                               const dealii::Point<3> &place,
-                                               const unsigned int      body) const
-  {
-    using dealii::Utilities::MPI::min;
-    const int   this_rank = dealii::Utilities::MPI::this_mpi_process(mesh.comm);
-    const int   rank      = min(is_worst ? this_rank : std::numeric_limits<int>::max(), mesh.comm);
-    std::string where;
-    if (rank == this_rank)
-      where = format("at x = %.2f, y = %.2f, z = %.2f mm of the %s", 1e3 * place[0], 1e3 * place[1],
-                     1e3 * place[2], mesh.body_names[body].c_str());
-    return dealii::Utilities::MPI::broadcast(mesh.comm, where, rank);
-  }
-
-
-  std::string ExplicitDynamics::place_of_worst_cell(const bool is_worst, const unsigned int cell) const
-  {
-    dealii::Point<3> centre;
-    unsigned int     body = 0;
-    if (is_worst)
-      {
-        for (const unsigned int i : mesh.cells[cell].nodes)
-          centre += mesh.nodes[i] / 8.;
-        body = mesh.cells[cell].body;
-      }
-    return place_of_worst(is_worst, centre, body);
-  }
-
-
-  void ExplicitDynamics::check_cells()
+  void CriticalStep::check_cells()
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::min;
     double       least_volume = std::numeric_limits<double>::max(), stretch = 1., fastest = 0., strain = 0.;
     unsigned int worst = 0, most_strained = 0;
-    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    for (unsigned int c = 0; c < moving.mesh.cells.size(); ++c)
       {
-        const auto        &nodes = mesh.cells[c].nodes;
-        const Tensor<2, 3> before =
-                             jacobian_at_centre([&](const unsigned int a) { return mesh.nodes[nodes[a]]; }),
+        const auto        &nodes  = moving.mesh.cells[c].nodes;
+        const Tensor<2, 3> before = jacobian_at_centre(
+                             [&](const unsigned int a) { return moving.mesh.nodes[nodes[a]]; }),
                            now = jacobian_at_centre(
-                             [&](const unsigned int a) { return state.position(nodes[a]); });
+                             [&](const unsigned int a) { return moving.state.position(nodes[a]); });
         const Tensor<2, 3> F      = now * dealii::invert(before);
         const double       volume = dealii::determinant(F);
         if (!(volume >= least_volume)) // NaN is found as well
@@ -118,43 +89,42 @@ namespace tread
                 most_strained = c;
               }
             stretch = std::max(stretch, change);
-            fastest =
-              std::max(fastest, change * solid.cell_frequencies()[c] * (1u << solid.cell_levels()[c]));
+            fastest = std::max(fastest, change * moving.solid.cell_frequencies()[c] *
+                                          (1u << moving.solid.cell_levels()[c]));
           }
       }
-    if (const double least = min(least_volume, mesh.comm); least <= 0.)
-      throw WentWrong("the cell " + place_of_worst_cell(least_volume == least, worst) +
-                      " has been turned inside out after " + std::to_string(state.n_steps) +
+    if (const double least = min(least_volume, moving.mesh.comm); least <= 0.)
+      throw WentWrong("the cell " + moving.place_of_worst_cell(least_volume == least, worst) +
+                      " has been turned inside out after " + std::to_string(moving.state.n_steps) +
                       " steps: its strain is too large for this mesh; use larger cells there, or "
                       "less load or hardening that carries it");
-    else if (least < parameters.least_volume)
-      throw WentWrong("the cell " + place_of_worst_cell(least_volume == least, worst) +
+    else if (least < moving.parameters.least_volume)
+      throw WentWrong("the cell " + moving.place_of_worst_cell(least_volume == least, worst) +
                       format(" has %.3g of its volume after %llu steps, below 'Watchdogs/Stop at volume' %g",
-                             least, (unsigned long long)state.n_steps, parameters.least_volume));
-    if (const double largest = max(strain, mesh.comm); largest > parameters.largest_strain)
-      throw WentWrong("the cell " + place_of_worst_cell(strain == largest, most_strained) +
+                             least, (unsigned long long)moving.state.n_steps,
+                             moving.parameters.least_volume));
+    if (const double largest = max(strain, moving.mesh.comm); largest > moving.parameters.largest_strain)
+      throw WentWrong("the cell " + moving.place_of_worst_cell(strain == largest, most_strained) +
                       format(" has a strain of %.3g after %llu steps, above 'Watchdogs/Stop at strain' %g",
-                             largest, (unsigned long long)state.n_steps, parameters.largest_strain));
+                             largest, (unsigned long long)moving.state.n_steps,
+                             moving.parameters.largest_strain));
 
     // No motion of the mesh can have become faster by more than its most changed cell, nor be faster than the
     // fastest cell alone: while that is slow enough nothing needs to be known exactly.
-    const double bound = std::min(max(stretch, mesh.comm) * highest_of_step, max(fastest, mesh.comm));
-    if (parameters.courant_number * bound <= std::max(highest_of_step, worth_looking * bound_found_stable))
+    const double bound =
+      std::min(max(stretch, moving.mesh.comm) * highest_of_step, max(fastest, moving.mesh.comm));
+    if (moving.parameters.courant_number * bound <=
+        std::max(highest_of_step, worth_looking * bound_found_stable))
       return;
-    const double courant =
-      parameters.courant_number * highest_of_levels(state.positions(), state.history) / highest_of_step;
+    const double courant = moving.parameters.courant_number *
+                           highest_of_levels(moving.state.positions(), moving.state.history) /
+                           highest_of_step;
     if (courant > 1.)
       throw WentWrong(
         format("the cells have deformed so much after %llu steps that the time step is no longer stable: "
                "Courant number %.3f; start anew with 'Time stepping/Courant number' at most %.2f",
-               (unsigned long long)state.n_steps, courant,
-               std::floor(100. * advised_share * parameters.courant_number / courant) / 100.));
-    bound_found_stable = parameters.courant_number * bound;
-  }
-
-
-  void ExplicitDynamics::renew_critical_time_step()
-  {
-    critical_step = critical_time_step_of(highest_of_levels(state.positions(), state.history));
+               (unsigned long long)moving.state.n_steps, courant,
+               std::floor(100. * advised_share * moving.parameters.courant_number / courant) / 100.));
+    bound_found_stable = moving.parameters.courant_number * bound;
   }
 } // namespace tread

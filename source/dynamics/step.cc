@@ -57,7 +57,7 @@ namespace tread
     const double damping = parameters.mass_damping, scaled = parameters.density_scale * factor;
     if (run.carrier >= 0)
       {
-        const RigidMotion &motion = motions[run.carrier];
+        const RigidMotion &motion = parts.motions()[run.carrier];
         LoadsOnBody        of_run;
         const double       inward = -motion.compensation;
         const bool         tilts  = motion.tilts; // else nothing asks for the products
@@ -107,8 +107,8 @@ namespace tread
   {
     state.set_damping_time(parameters.damping_steps * state.time_step);
     mesh.distribute_hanging_nodes(state.x_damped.data());
-    find_motions();
-    next_loads = BodyLoads(carriers.size());
+    parts.find_motions();
+    next_loads = BodyLoads(parts.carriers().size());
     std::fill(state.force.begin(), state.force.end(), Vector3{});
     for (unsigned int level = 0; level <= max_level(); ++level)
       for (const Run &run : levels.runs[level])
@@ -120,21 +120,6 @@ namespace tread
           });
         }
     keep_loads_of_shared(max_level());
-  }
-
-
-  void ExplicitDynamics::find_motions()
-  {
-    motions.resize(carriers.size());
-    for (std::size_t k = 0; k < carriers.size(); ++k)
-      motions[k] = carriers[k]->motion();
-  }
-
-
-  void ExplicitDynamics::set_part_sums()
-  {
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      parts[k]->set_sums(state, inverse_mass, rank_sums.data() + first_sum[k]);
   }
 
 
@@ -158,9 +143,9 @@ namespace tread
             for (unsigned int i = run.begin; i < run.end; ++i)
               state.force[i] += load(i);
           });
-    totals.damping.add(dot(loads.loss, Vector3{1., 1., 1., 0.}));
-    for (std::size_t k = 0; k < carriers.size(); ++k)
-      carriers[k]->take(loads.of_carrier[k]);
+    books.totals.damping.add(dot(loads.loss, Vector3{1., 1., 1., 0.}));
+    for (std::size_t k = 0; k < loads.of_carrier.size(); ++k)
+      parts.carriers()[k]->take(loads.of_carrier[k]);
     Step step = step_with(due);
     for (const auto &part : parts)
       part->add_loads(step);
@@ -178,25 +163,25 @@ namespace tread
         matched_surface.select(contact->nodes_near());
         spent.search += watch.lap();
       }
-    contact->predict(state.v.data(), state.force.data(), state.time_step, rank_sums);
+    contact->predict(state.v.data(), state.force.data(), state.time_step, parts.sums());
     spent.communication += watch.lap();
     contact->solve(state.time_step, state.force.data());
     hold_guided_nodes(state.force); // also where contact reaches the plane on which they are guided
     const ContactWork &work = contact->last_work();
-    totals.friction.add(work.friction);
-    totals.contact.add(work.normal + work.adhesion);
-    totals.contact_on_nodes.add(work.on_nodes);
-    totals.contact_on_nodes.add(work.imposed);
-    totals.external_work.add(work.imposed);
-    totals.gross_work.add(std::abs(work.imposed));
+    books.totals.friction.add(work.friction);
+    books.totals.contact.add(work.normal + work.adhesion);
+    books.totals.contact_on_nodes.add(work.on_nodes);
+    books.totals.contact_on_nodes.add(work.imposed);
+    books.totals.external_work.add(work.imposed);
+    books.totals.gross_work.add(std::abs(work.imposed));
     spent.contact += watch.lap();
   }
 
 
   void ExplicitDynamics::advance_nodes(const unsigned int due)
   {
-    find_motions();
-    next_loads             = BodyLoads(carriers.size());
+    parts.find_motions();
+    next_loads             = BodyLoads(parts.carriers().size());
     const Quantum of_loads = quanta.force;
     for (unsigned int level = 0; level <= due; ++level)
       {
@@ -224,12 +209,10 @@ namespace tread
 
   void ExplicitDynamics::step()
   {
-    Stopwatch                    watch;
-    std::optional<DampingSample> sample;
-    if (synchronised() &&
-        (!damping_is_sampled ||
-         state.n_steps >= last_damping_step + steps_worth(parameters.steps_between_damping_samples)))
-      sample = begin_damping_sample();
+    Stopwatch                                 watch;
+    std::optional<EnergyBooks::DampingSample> sample;
+    if (books.sample_is_due())
+      sample = books.begin_sample();
     const unsigned int due = level_due();
     add_forces_due(due);
     for (const auto &part : parts)
@@ -238,7 +221,7 @@ namespace tread
     sum_forces(due);
     spent.communication += watch.lap();
     add_loads(due);
-    set_part_sums();
+    parts.set_sums(state, inverse_mass);
     spent.nodes += watch.lap();
 
     if (contact)
@@ -246,11 +229,10 @@ namespace tread
         add_contact_forces();
         watch.lap(); // counted there
       }
-    else if (!rank_sums.empty())
-      dealii::Utilities::MPI::sum(rank_sums, mesh.comm, rank_sums);
+    else
+      parts.sum_over_ranks(mesh.comm);
     Step step = step_with(due);
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      parts[k]->advance(step, rank_sums.data() + first_sum[k]);
+    parts.advance(step);
     advance_nodes(due);
     for (const auto &part : parts)
       part->place_nodes(state);
@@ -258,7 +240,7 @@ namespace tread
     ++state.n_steps;
     place_hanging_nodes();
     if (sample)
-      end_damping_sample(*sample);
+      books.end_sample(*sample);
     spent.nodes += watch.lap();
   }
 } // namespace tread

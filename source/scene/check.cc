@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the parameters of several sections have to say to each other.
 #include <tread/base/registry.h>
-#include <tread/contact/remembering_friction.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
@@ -18,11 +17,6 @@ namespace tread
     /// Stiffness damping, in time steps, that levels of time steps need: what dynamics_levels shows to
     /// suffice.
     constexpr double least_damping_of_levels = 0.1;
-
-    /// The memory of friction that is taken, over the least for which slip is steady by a linear law, and the
-    /// least that nothing is said of: at once the least, a steep law lost 14 % of its traction, and 1 % at
-    /// twice.
-    constexpr double memory_room = 3., least_room = 1.5;
 
     /// Places that should be equal may differ by this, m.
     constexpr double round_off = 1e-9;
@@ -414,117 +408,6 @@ namespace tread
   }
 
 
-  void Scene::check_friction_by_temperature() const
-  {
-    if (contact.temperatures.empty())
-      return;
-    const std::string name = "'Contact/Friction temperatures (C)' needs ";
-    require(damage.record, name + "'Damage/Record' true, which finds the temperatures");
-    require(!damage.wheel_share,
-            name +
-              "'Damage/Heat share of the wheel' automatic, with which both surfaces have one temperature");
-    require(friction_law()->is_constant(),
-            name + "'Contact/Friction law' Coulomb: slip and heat would make friction fall twice");
-    const double largest =
-      contact.friction_coefficient *
-      *std::max_element(contact.temperature_factors.begin(), contact.temperature_factors.end());
-    constexpr double most = 2.; // as of the coefficient itself
-    require(largest <= most, "'Contact/Friction temperature factors' make the friction coefficient " +
-                               text_of(largest) + "; at most " + text_of(most) + " is allowed");
-  }
-
-
-  void Scene::check_track() const
-  {
-    require(track.has_supports() || rail.ends == EndKind::symmetric,
-            "'Rail/Ends' " + name_of(rail.ends) +
-              " needs a rail on supports: 'Track/Foundation' must be one-layer or two-layer");
-    require(
-      !track.runs_along() || (n_wheels() == 1 && !wheelset.both_wheels),
-      "'Track/Foundation' co-running is for one wheel: 'Further wheels' and 'Wheelset/Both wheels' must "
-      "be off");
-    if (!track.has_supports())
-      return;
-    require(!rail.is_meshed(),
-            "'Track/Foundation' " + name_of(track.foundation) +
-              " needs a rail with a foot of the program's own: with 'Rail/Shape' mesh it must be "
-              "rigid or co-running");
-    require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
-                                             " needs a rail with a foot: 'Rail/Shape' cannot be head");
-    track.check();
-    const RailProfile profile = rail.standard_profile();
-    const double      base =
-      rail.is_block() ? rail.block_width : 2. * profile.outline_point(profile.corners().foot_edge)[0];
-    require(track.pad_width <= base, "'Track/Pad width (mm)' " + text_in_mm(track.pad_width) +
-                                       " exceeds the flat width of the rail's base, " + text_in_mm(base));
-    // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
-    // its foot.
-    const bool stands_upright = rail.angle() == 0. && rail.measured_head.empty() &&
-                                std::abs(first_contact().y) < 1e-6 &&
-                                (!shapes->defect || shapes->defect->y_middle == 0.) &&
-                                motion.lateral_creepage == 0. && motion.spin == 0.;
-    require(
-      track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),
-      "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
-      "('Rail/Inclination' none), wheel and defect meet it on y = 0, 'Motion/Lateral creepage' and 'Spin "
-      "(1 per m)' are 0, and its crown radius exceeds its height, " +
-        text_in_mm(rail.height()) + " mm");
-    check_overhang();
-    if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
-      {
-        const double clear =
-          std::min(path_begin(last_wheel()) - ends.begin, ends.end - meshed_end()) - track.sleeper_spacing;
-        require(ends.length <= clear + round_off,
-                "'Rail/Absorbing length (m)' " + text_of(ends.length) +
-                  " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
-                  "most " +
-                  text_of(std::max(0., clear)) + " fits this rail");
-      }
-    if (rail.ends == EndKind::endless)
-      {
-        require(track.pads_pull,
-                "'Rail/Ends' endless needs 'Track/Pads pull' true: the beam beyond the ends is "
-                "linear");
-        require(general.density_scale == 1., "'Rail/Ends' endless needs 'Scene/Density scale' 1: waves that "
-                                             "leave the cells would find another rail");
-        const double clear = std::min(path_begin(last_wheel()) - rail_begin(), rail_end() - meshed_end());
-        require(clear >= 0.5 * track.sleeper_spacing - round_off,
-                "'Rail/Ends' endless: the wheel's path comes within " + text_in_mm(std::max(0., clear)) +
-                  " mm of an end of the rail; at least half a sleeper spacing, " +
-                  text_in_mm(0.5 * track.sleeper_spacing) + " mm, is needed");
-      }
-    const int first = first_support(), last = first + static_cast<int>(support_positions().size()) - 1;
-    for (const auto &[support, springs] : support_springs)
-      require(support >= first && support <= last, "'Track/Support file' has support " +
-                                                     std::to_string(support) + "; the rail has supports " +
-                                                     std::to_string(first) + " to " + std::to_string(last));
-    for (const int support : recorded_supports())
-      require(support >= first && support <= last, "'Output/Supports' has " + std::to_string(support) +
-                                                     "; the rail has supports " + std::to_string(first) +
-                                                     " to " + std::to_string(last));
-  }
-
-
-  void Scene::check_overhang() const
-  {
-    const std::vector<double> positions = support_positions();
-    const double              spacing   = track.sleeper_spacing;
-    require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(spacing) + " leaves " +
-                                     std::to_string(positions.size()) + " supports on the rail of " +
-                                     text_in_mm(rail_end() - rail_begin()) + " mm; at least 2 are needed");
-    const auto check_end = [&](const double overhang, const std::string &begins, const std::string &support) {
-      require(overhang >= 0.5 * track.pad_length - round_off && overhang <= 0.5 * spacing + round_off,
-              "'Track/Sleeper spacing (m)' " + text_of(spacing) + " does not fit the rail from " +
-                text_in_mm(rail_begin()) + " to " + text_in_mm(rail_end()) + " mm: it " + begins + " " +
-                text_in_mm(overhang < round_off ? 0. : overhang) + " mm " + support + "; from half a pad, " +
-                text_in_mm(0.5 * track.pad_length) + ", to half a spacing, " + text_in_mm(0.5 * spacing) +
-                ", is allowed");
-    };
-    check_end(positions.front() - rail_begin(), "begins", "before its first support");
-    check_end(rail_end() - positions.back(), "ends", "behind its last support");
-  }
-
-
   void Scene::check_plasticity() const
   {
     const double beside = is_positioned() ? 0. : std::abs(path_y());
@@ -608,76 +491,6 @@ namespace tread
     return number == 0 || further_wheels.traction_coefficients.empty()
              ? motion.traction_coefficient
              : further_wheels.traction_coefficients[number - 1];
-  }
-
-
-  std::string Scene::short_memory() const
-  {
-    const auto   law    = friction_law();
-    const double needed = law->is_constant() ? 0. : needed_memory(*law);
-    if (law->memory().distance >= needed * least_room / memory_room)
-      return "";
-    return format(
-      "'Contact/Friction memory (mm)' %g lets slip oscillate by itself, which takes friction away: "
-      "'automatic' takes %.2g, and half-space theory beside has the same",
-      1e3 * law->memory().distance, 1e3 * needed);
-  }
-
-
-  double Scene::needed_memory(const FrictionLaw &law) const
-  {
-    // An upright wheel on a crown of its own radius stands for all: pressure and length go with the cube root
-    // of the load.
-    const ElasticMaterial of_wheel = wheel.material.elastic(), of_rail = rail.material.elastic();
-    const auto            compliance = [](const ElasticMaterial &m) {
-      return (1. - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
-    };
-    const double modulus = 1. / (compliance(of_wheel) + compliance(of_rail)), shear = of_rail.shear_modulus(),
-                 load = static_load(), a = std::cbrt(0.75 * load * wheel.radius / modulus),
-                 pressure = 1.5 * load / (dealii::numbers::PI * a * a);
-    // Waves carry this much away, half the shear impedance. Cells of scaled density would carry more, but
-    // shake before that is reached: a third to all of the slip speed, between two and five times this value.
-    const double impedance = 0.5 * std::sqrt(of_rail.density * shear);
-    // What slides in a patch slides no faster than this; where nothing says how fast, or a profile adds its
-    // own, a hundredth of the speed.
-    constexpr double of_profile     = 0.01;
-    const double     given          = motion.creepage ? std::abs(*motion.creepage) : 0.,
-                 fastest            = motion.speed * (given + of_profile + std::abs(motion.lateral_creepage) +
-                                           std::abs(motion.spin) * a);
-    double                 steepest = 0., of_speed = 0.; // largest -f'(s) and -s f'(s)
-    constexpr unsigned int n = 400;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const double s = fastest * (i + 0.5) / n, step = 0.5 * fastest / n,
-                     slope = (law.coefficient(s - step) - law.coefficient(s + step)) / (2. * step);
-        steepest           = std::max(steepest, slope);
-        of_speed           = std::max(of_speed, s * slope);
-      }
-    if (pressure * steepest <= impedance)
-      return 0.;
-    // Slip that a memory d delays is steady where the stiffness k of the bodies against it exceeds
-    // s (p |f'| - impedance) / d (linear stability of a slider whose friction follows its slip over a
-    // distance). The softest waves of a patch have k = G / a. Found to be enough for partial slip and for
-    // sliding.
-    return memory_room * pressure * of_speed * a / shear;
-  }
-
-
-  std::shared_ptr<const FrictionLaw> Scene::friction_law() const
-  {
-    const Section section(handler, "Contact");
-    try
-      {
-        const auto law = make_friction_law(contact.friction_law, contact.friction_coefficient, handler);
-        if (law->memory().distance >= 0.)
-          return law;
-        return std::make_shared<RememberingFriction>(
-          law, FrictionLaw::Memory{needed_memory(*law), law->memory().speed});
-      }
-    catch (const std::invalid_argument &error)
-      {
-        throw InputError(error.what());
-      }
   }
 
 

@@ -56,6 +56,9 @@ namespace tread
       {"Track/Vertical damping (kN s per m)", 0.05, 1e5, "N s per m"},
       {"Track/Lateral stiffness (MN per m)", 0.01, 1e5, "N per m"},
       {"Track/Lateral damping (kN s per m)", 0.05, 1e5, "N s per m"},
+      {"Track/Beam bending stiffness (MN m2)", 0.05, 500., "N m2"},
+      {"Track/Beam shear stiffness (MN)", 5., 2e4, "N"},
+      {"Track/Beam mass (kg per m)", 5., 3e3, "t per m"},
       {"Guidance/Lateral stiffness (MN per m)", 1e-3, 1e4, "N per m"},
       {"Guidance/Yaw inertia (kg m2)", 1., 1e5, "t m2"},
     };

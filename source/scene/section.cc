@@ -21,13 +21,14 @@ namespace tread
       double      times, over;
     };
 
-    constexpr std::array<Unit, 34> units{{{"mm", 1e-3, 1.},        {"C", 1., 1.},
+    constexpr std::array<Unit, 36> units{{{"mm", 1e-3, 1.},        {"C", 1., 1.},
                                           {"%", 1., 100.},         {"m", 1., 1.},
                                           {"GPa", 1e9, 1.},        {"MPa", 1e6, 1.},
                                           {"kg", 1., 1.},          {"kg m2", 1., 1.},
                                           {"kg per m3", 1., 1.},   {"km per h", 1., 3.6},
                                           {"m per s2", 1., 1.},    {"kN per m", 1e3, 1.},
-                                          {"MN per m", 1e6, 1.},   {"N s per m", 1., 1.},
+                                          {"MN per m", 1e6, 1.},   {"MN", 1e6, 1.},
+                                          {"kg per m", 1., 1.},    {"N s per m", 1., 1.},
                                           {"kN s per m", 1e3, 1.}, {"1 per s", 1., 1.},
                                           {"1 per m", 1., 1.},     {"m per s", 1., 1.},
                                           {"mrad", 1e-3, 1.},      {"deg", std::numbers::pi, 180.},

@@ -11,6 +11,13 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Places that should be equal may differ by this, m.
+    constexpr double same_place = 1e-9;
+  } // namespace
+
+
   int Scene::first_support() const
   {
     // The first whose middle lies on the rail.
@@ -122,7 +129,7 @@ namespace tread
     p.pad_middle   = base_middle()[1];
     p.points_along = track.points_along;
     p.points_across = track.points_across;
-    p.two_layers    = track.foundation == Foundation::two_layer;
+    p.two_layers    = track.foundation == Foundation::two_layer || track.is_beam();
     p.sleeper_mass  = track.sleeper_mass;
     for (const auto &[number, springs] : support_springs)
       p.exceptions[number - first_support()] = springs;
@@ -130,7 +137,7 @@ namespace tread
   }
 
 
-  RailBaseParameters Scene::rail_base_parameters() const
+  CoRunningTrack Scene::co_running_track() const
   {
     return {track.co_running_mass,
             {track.vertical_stiffness, track.vertical_damping},
@@ -145,21 +152,50 @@ namespace tread
   }
 
 
+  BeamUnderRail Scene::beam_under_rail() const
+  {
+    const ElasticMaterial &steel = rail.material.elastic();
+    BeamUnderRail          beam;
+    beam.section.bending_stiffness = track.beam_bending_stiffness;
+    beam.section.shear_stiffness   = track.beam_shear_stiffness;
+    beam.section.mass              = track.beam_mass;
+    beam.section.rotary_inertia    = track.beam_bending_stiffness * steel.density / steel.young_modulus;
+    beam.axial_stiffness           = track.beam_mass * steel.young_modulus / steel.density;
+    beam.length                    = rail_end() - rail_begin();
+    beam.mass                      = beam.length * track.beam_mass;
+    beam.beyond.fill(track_beyond_alike());
+    const double before          = track.support_0 + track.sleeper_spacing * (first_support() - 1);
+    beam.beyond[0].first_support = rail_begin() - before;
+    beam.beyond[1].first_support = before + track.sleeper_spacing - rail_end();
+    // At rest it carries nothing but the cells and the wheel.
+    for (TrackBeyondParameters &end : beam.beyond)
+      end.gravity = 0.;
+    return beam;
+  }
+
+
+  TrackBeyondParameters Scene::track_beyond_alike() const
+  {
+    TrackParameters alike = track_parameters();
+    alike.exceptions.clear();
+    TrackBeyondParameters p;
+    p.n_spans         = rail.spans_beyond;
+    p.spacing         = track.sleeper_spacing;
+    p.stiffness_along = track.stiffness_along;
+    p.shear_speed     = rail.material.elastic().shear_wave_speed();
+    p.gravity         = vehicle.gravity;
+    p.layers          = alike.layers(0);
+    return p;
+  }
+
+
   std::optional<std::array<TrackBeyondParameters, 2>> Scene::track_beyond() const
   {
     if (rail.ends != EndKind::endless)
       return {};
-    TrackParameters alike = track_parameters();
-    alike.exceptions.clear();
-    TrackBeyondParameters p;
-    p.n_spans                        = rail.spans_beyond;
-    p.spacing                        = track.sleeper_spacing;
-    p.stiffness_along                = track.stiffness_along;
-    p.shear_speed                    = rail.material.elastic().shear_wave_speed();
-    p.gravity                        = vehicle.gravity;
-    p.layers                         = alike.layers(0);
-    const std::vector<double> places = support_positions();
-    TrackBeyondParameters     before = p, behind = p;
+    const TrackBeyondParameters p      = track_beyond_alike();
+    const std::vector<double>   places = support_positions();
+    TrackBeyondParameters       before = p, behind = p;
     before.first_support = track.sleeper_spacing - (places.front() - rail_begin());
     behind.first_support = track.sleeper_spacing - (rail_end() - places.back());
     return std::array{before, behind};
@@ -170,5 +206,123 @@ namespace tread
   {
     return dealii::Point<3>(0., std::sin(rail.angle()) * rail.height(),
                             -std::cos(rail.angle()) * rail.height());
+  }
+
+
+  void Scene::check_beam() const
+  {
+    require(rail.shape != RailShape::full_section && !rail.is_meshed(),
+            "'Track/Foundation' beam needs a piece of a rail that is stiffer than the beam under it: "
+            "'Rail/Shape' must be head, block or slices");
+    track.check();
+    const BeamUnderRail beam   = beam_under_rail();
+    const double        clear  = 0.5 * track.pad_length - same_place;
+    const double        middle = 0.5 * (rail_begin() + rail_end());
+    require(support_positions().empty() && beam.beyond[0].first_support >= clear &&
+              beam.beyond[1].first_support >= clear,
+            "'Track/Foundation' beam: the rail, from x = " + text_in_mm(rail_begin()) + " to " +
+              text_in_mm(rail_end()) +
+              " mm, must lie between the pads of two supports, 'Sleeper spacing (m)' " +
+              text_of(track.sleeper_spacing) + " apart" +
+              (beam.length + track.pad_length <= track.sleeper_spacing
+                 ? "; with 'Track/Support 0 (mm)' " +
+                     text_in_mm(1e-3 * std::round(1e3 * (middle + 0.5 * track.sleeper_spacing))) +
+                     " it is in the middle of a span"
+                 : ""));
+  }
+
+
+  void Scene::check_track() const
+  {
+    require(track.has_supports() || rail.ends == EndKind::symmetric,
+            "'Rail/Ends' " + name_of(rail.ends) +
+              (track.is_beam()
+                 ? " is for rails on supports: a beam is endless by itself"
+                 : " needs a rail on supports: 'Track/Foundation' must be one-layer or two-layer"));
+    require(!track.has_moving_base() || (n_wheels() == 1 && !wheelset.both_wheels),
+            "'Track/Foundation' " + name_of(track.foundation) +
+              " is for one wheel: 'Further wheels' and "
+              "'Wheelset/Both wheels' must be off");
+    if (track.is_beam())
+      check_beam();
+    if (!track.has_supports())
+      return;
+    require(!rail.is_meshed(),
+            "'Track/Foundation' " + name_of(track.foundation) +
+              " needs a rail with a foot of the program's own: with 'Rail/Shape' mesh it must be "
+              "rigid or co-running");
+    require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
+                                             " needs a rail with a foot: 'Rail/Shape' cannot be head");
+    track.check();
+    const RailProfile profile = rail.standard_profile();
+    const double      base =
+      rail.is_block() ? rail.block_width : 2. * profile.outline_point(profile.corners().foot_edge)[0];
+    require(track.pad_width <= base, "'Track/Pad width (mm)' " + text_in_mm(track.pad_width) +
+                                       " exceeds the flat width of the rail's base, " + text_in_mm(base));
+    // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
+    // its foot.
+    const bool stands_upright = rail.angle() == 0. && rail.measured_head.empty() &&
+                                std::abs(first_contact().y) < 1e-6 &&
+                                (!shapes->defect || shapes->defect->y_middle == 0.) &&
+                                motion.lateral_creepage == 0. && motion.spin == 0.;
+    require(
+      track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),
+      "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
+      "('Rail/Inclination' none), wheel and defect meet it on y = 0, 'Motion/Lateral creepage' and 'Spin "
+      "(1 per m)' are 0, and its crown radius exceeds its height, " +
+        text_in_mm(rail.height()) + " mm");
+    check_overhang();
+    if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
+      {
+        const double clear =
+          std::min(path_begin(last_wheel()) - ends.begin, ends.end - meshed_end()) - track.sleeper_spacing;
+        require(ends.length <= clear + same_place,
+                "'Rail/Absorbing length (m)' " + text_of(ends.length) +
+                  " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
+                  "most " +
+                  text_of(std::max(0., clear)) + " fits this rail");
+      }
+    if (rail.ends == EndKind::endless)
+      {
+        require(track.pads_pull,
+                "'Rail/Ends' endless needs 'Track/Pads pull' true: the beam beyond the ends is "
+                "linear");
+        require(general.density_scale == 1., "'Rail/Ends' endless needs 'Scene/Density scale' 1: waves that "
+                                             "leave the cells would find another rail");
+        const double clear = std::min(path_begin(last_wheel()) - rail_begin(), rail_end() - meshed_end());
+        require(clear >= 0.5 * track.sleeper_spacing - same_place,
+                "'Rail/Ends' endless: the wheel's path comes within " + text_in_mm(std::max(0., clear)) +
+                  " mm of an end of the rail; at least half a sleeper spacing, " +
+                  text_in_mm(0.5 * track.sleeper_spacing) + " mm, is needed");
+      }
+    const int first = first_support(), last = first + static_cast<int>(support_positions().size()) - 1;
+    for (const auto &[support, springs] : support_springs)
+      require(support >= first && support <= last, "'Track/Support file' has support " +
+                                                     std::to_string(support) + "; the rail has supports " +
+                                                     std::to_string(first) + " to " + std::to_string(last));
+    for (const int support : recorded_supports())
+      require(support >= first && support <= last, "'Output/Supports' has " + std::to_string(support) +
+                                                     "; the rail has supports " + std::to_string(first) +
+                                                     " to " + std::to_string(last));
+  }
+
+
+  void Scene::check_overhang() const
+  {
+    const std::vector<double> positions = support_positions();
+    const double              spacing   = track.sleeper_spacing;
+    require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(spacing) + " leaves " +
+                                     std::to_string(positions.size()) + " supports on the rail of " +
+                                     text_in_mm(rail_end() - rail_begin()) + " mm; at least 2 are needed");
+    const auto check_end = [&](const double overhang, const std::string &begins, const std::string &support) {
+      require(overhang >= 0.5 * track.pad_length - same_place && overhang <= 0.5 * spacing + same_place,
+              "'Track/Sleeper spacing (m)' " + text_of(spacing) + " does not fit the rail from " +
+                text_in_mm(rail_begin()) + " to " + text_in_mm(rail_end()) + " mm: it " + begins + " " +
+                text_in_mm(overhang < same_place ? 0. : overhang) + " mm " + support + "; from half a pad, " +
+                text_in_mm(0.5 * track.pad_length) + ", to half a spacing, " + text_in_mm(0.5 * spacing) +
+                ", is allowed");
+    };
+    check_end(positions.front() - rail_begin(), "begins", "before its first support");
+    check_end(rail_end() - positions.back(), "ends", "behind its last support");
   }
 } // namespace tread

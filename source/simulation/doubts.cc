@@ -20,7 +20,7 @@ namespace tread
     std::string slow_step(const ExplicitDynamics &dynamics)
     {
       constexpr double much   = 3.;
-      const double     slower = dynamics.slowed_by_supports();
+      const double     slower = dynamics.critical_step().slowed_by_supports();
       return slower > much
                ? format("the cells would allow a time step %.3g times as long: springs, dampers or "
                         "masses in section 'Track' are far from those of a track",

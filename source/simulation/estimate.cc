@@ -155,7 +155,7 @@ namespace tread
         }
       model.dynamics.set_rigid_velocities();
       model.contact.scale_impulses(model.scene.time_stepping.courant_number *
-                                   model.dynamics.critical_time_step());
+                                   model.dynamics.critical_step().seconds());
       model.dynamics.start();
     }
 
@@ -211,7 +211,7 @@ namespace tread
       const double began = MPI_Wtime();
       Model        model(scene, comm, window);
       auto        &dynamics = model.dynamics;
-      pace.step             = scene.time_stepping.courant_number * dynamics.critical_time_step();
+      pace.step             = scene.time_stepping.courant_number * dynamics.critical_step().seconds();
       pace.made             = dealii::Utilities::MPI::max(MPI_Wtime() - began, comm);
       pace.steps            = model.remaining_steps();
       pace.cells            = model.mesh.n_global_cells;

@@ -2,6 +2,8 @@
 // From a scene to what rolls.
 #include <tread/analysis/seat_modes.h>
 #include <tread/base/format.h>
+#include <tread/base/input_error.h>
+#include <tread/base/reproducible_sum.h>
 #include <tread/dynamics/parts/added_mass.h>
 #include <tread/dynamics/parts/nodes.h>
 #include <tread/dynamics/parts/rail_base.h>
@@ -39,7 +41,7 @@ namespace tread
       wheels.emplace_back(scene, number);
     if (scene.track.has_supports())
       add_supports();
-    else if (!scene.track.runs_along())
+    else if (!scene.track.has_moving_base())
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
     if (scene.rail_mesh())
       {
@@ -55,10 +57,11 @@ namespace tread
           dynamics.add<AddedMassOnWheel>(carrier);
       }
     if (scene.track.runs_along())
-      {
-        rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());
-        dynamics.add<RailOnBase>(*rail_base, rail_body);
-      }
+      rail_base = std::make_unique<CoRunningBase>(scene.co_running_track());
+    else if (scene.track.is_beam())
+      rail_base = std::make_unique<BaseOnBeam>(beam_without_cells());
+    if (rail_base)
+      dynamics.add<RailOnBase>(*rail_base, rail_body);
     dynamics.attach_contact(contact);
     if (window.number == 0)
       check_added_mass();
@@ -125,6 +128,25 @@ namespace tread
                    "allowed (without it --dry-run prints what several steps add)",
                    1e6 * scene.time_stepping.least_step, added.rail, added.wheels,
                    100. * added.error_estimate, 100. * AddedMass::largest_error));
+  }
+
+
+  BeamUnderRail Model::beam_without_cells() const
+  {
+    BeamUnderRail           beam = scene.beam_under_rail();
+    ReproducibleSum<double> on_base; // what nodes that the base carries would weigh does not act
+    for (const unsigned int i : dynamics.support_nodes(rail_body))
+      if (mesh.shared_nodes.is_owned(i))
+        on_base.add(dynamics.true_masses()[i]);
+    const double cells = dynamics.masses_of_bodies()[rail_body].own - on_base.value(comm), whole = beam.mass;
+    beam.mass -= cells;
+    constexpr double least = 0.25; // of the whole: lighter ones could need shorter steps
+    require(beam.mass >= least * whole,
+            format("'Track/Beam mass (kg per m)' %g: the meshed piece of the rail has %.3g kg, so that at "
+                   "least %g kg/m "
+                   "are needed",
+                   scene.track.beam_mass, cells, std::ceil(cells / (1. - least) / beam.length)));
+    return beam;
   }
 
 
@@ -199,7 +221,7 @@ namespace tread
   {
     const double        step     = dynamics.state.time_step > 0.
                                      ? dynamics.state.time_step
-                                     : scene.time_stepping.courant_number * dynamics.critical_time_step();
+                                     : scene.time_stepping.courant_number * dynamics.critical_step().seconds();
     const std::uint64_t together = std::uint64_t(1) << dynamics.max_level();
     return together * static_cast<std::uint64_t>(
                         std::ceil((end_position() - position()) / (scene.motion.speed * step * together)));

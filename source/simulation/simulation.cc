@@ -245,7 +245,7 @@ namespace tread
         if (checks || at_end)
           {
             model.dynamics.check_stability();
-            model.dynamics.check_cells();
+            model.dynamics.critical_step().check_cells();
           }
 
         // Before any other checkpoint, so that none is made of a wheel at its end that does not know it.

@@ -127,7 +127,7 @@ namespace tread
     model.check_rim();
     // Cells deformed by earlier wheels may have become slower or faster.
     if (passages && passages->any_has_ended())
-      model.dynamics.renew_critical_time_step();
+      model.dynamics.critical_step().renew();
     std::string forces;
     for (const RollingWheel &wheel : model.wheels)
       forces +=
@@ -145,7 +145,7 @@ namespace tread
           {
             const PlacedWheel::Rise rise = scene.placed_wheel().rise();
             wheel.hub.begin_to_follow(scene.time_stepping.courant_number *
-                                        model.dynamics.critical_time_step(),
+                                        model.dynamics.critical_step().seconds(),
                                       rise.speed, rise.roll_rate);
           }
         else if (scene.rail.is_sliced())
@@ -153,10 +153,11 @@ namespace tread
         wheel.hub.motion.angular_velocity =
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }
-    if (model.supports)
+    if (model.supports || model.rail_base)
       model.dynamics.set_bending_velocities();
     model.dynamics.set_rigid_velocities();
-    model.contact.scale_impulses(scene.time_stepping.courant_number * model.dynamics.critical_time_step());
+    model.contact.scale_impulses(scene.time_stepping.courant_number *
+                                 model.dynamics.critical_step().seconds());
     model.dynamics.start();
     for (const auto &recorder : recorders)
       recorder->start();

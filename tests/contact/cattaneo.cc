@@ -37,7 +37,7 @@ void run_test(Check &check, const tests::Arguments &)
   WheelHub         &hub      = pressed.hub;
   Contact          &contact  = pressed.contact;
   contact.set_friction(std::make_shared<CoulombFriction>(friction));
-  contact.scale_impulses(DynamicsParameters().courant_number * dynamics.critical_time_step());
+  contact.scale_impulses(DynamicsParameters().courant_number * dynamics.critical_step().seconds());
   dynamics.start();
 
   // The hub is moved along x, slowly and with a smooth start; instants are chosen by the force that contact

@@ -30,15 +30,16 @@ namespace
     parameters.courant_number = courant;
     ExplicitDynamics dynamics(mesh, solid, parameters);
     dynamics.start();
-    const double before = dynamics.critical_time_step();
+    const double before = dynamics.critical_step().seconds();
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       {
         const Point<3> p = moved(mesh.nodes[i]);
         dynamics.state.set_position(i, Vector3{p[0], p[1], p[2], 0.});
       }
-    const std::string text = tests::complaint<std::runtime_error>([&] { dynamics.check_cells(); });
-    dynamics.renew_critical_time_step();
-    growth = before / dynamics.critical_time_step();
+    const std::string text =
+      tests::complaint<std::runtime_error>([&] { dynamics.critical_step().check_cells(); });
+    dynamics.critical_step().renew();
+    growth = before / dynamics.critical_step().seconds();
     std::printf("critical step over the new one %.4f: '%s'\n", growth, text.c_str());
     return text;
   }

@@ -123,7 +123,7 @@ namespace
                 block.dynamics->ideal_gain_of_levels());
     const Block plain(Boundary::support, 0, .95, .1);
     check.below("the smallest step is not much shortened by coarse cells",
-                plain.dynamics->critical_time_step() / block.dynamics->critical_time_step(), 1.05);
+                plain.dynamics->critical_step().seconds() / block.dynamics->critical_step().seconds(), 1.05);
   }
 
   /// Cells that are not quite twice as slow take steps that are twice as long, and the step must be as short
@@ -145,7 +145,7 @@ namespace
         const Solid            solid(mesh, {ElasticMaterial(), heavy}, solid_parameters);
         const ExplicitDynamics dynamics(mesh, solid, DynamicsParameters());
         check.absolute("slow cells: levels", dynamics.max_level(), max_level, 0.);
-        step[max_level] = dynamics.critical_time_step();
+        step[max_level] = dynamics.critical_step().seconds();
       }
     // Frequencies are rounded up to three digits.
     check.relative("slow cells: step over that of fast cells", step[1] / step[0], .5 * times_as_slow, .011);

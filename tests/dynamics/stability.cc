@@ -116,12 +116,12 @@ namespace
           const Solid            solid(mesh, {material}, solid_parameters);
           const ExplicitDynamics dynamics(mesh, solid, parameters);
           const double           exact = 2. / highest_frequency(mesh, solid, dynamics.true_masses());
-          const double           ratio = dynamics.critical_time_step() / exact;
+          const double           ratio = dynamics.critical_step().seconds() / exact;
           char                   what[120];
           std::snprintf(what, sizeof what, "%s, %s, nu %.2f: step/limit", name.c_str(),
                         type == OnePoint::name ? "one point" : "full", poisson_ratio);
           std::printf("%s: critical time step %.4f us, limit %.4f us, ratio %.3f\n", what,
-                      1e6 * dynamics.critical_time_step(), 1e6 * exact, ratio);
+                      1e6 * dynamics.critical_step().seconds(), 1e6 * exact, ratio);
           // Above 1 runs fail; far below steps are in vain. For nu > 0 a free cell has a bulk mode that its
           // neighbours do not let it have in the mesh: what is lost by bounding cell by cell, most for nu
           // towards 0.5.
@@ -168,11 +168,11 @@ namespace
         for (const double inverse : dynamics.inverse_masses())
           inertia.push_back(inverse > 0. ? 1. / inverse : 0.);
         const double exact = 2. / highest_frequency(mesh, solid, inertia);
-        check.below(name + "step over the limit of the mesh", dynamics.critical_time_step() / exact,
+        check.below(name + "step over the limit of the mesh", dynamics.critical_step().seconds() / exact,
                     1. + 1e-6);
         // Frequencies are rounded up to three digits.
         check.below(name + "step that was wanted over the step",
-                    2. / (solid_parameters.highest_frequency * dynamics.critical_time_step()), 1.01);
+                    2. / (solid_parameters.highest_frequency * dynamics.critical_step().seconds()), 1.01);
       }
   }
 } // namespace
@@ -264,13 +264,13 @@ void run_test(tests::Check &check, const tests::Arguments &)
       const ExplicitDynamics undamped(mesh, solid, parameters);
       ExplicitDynamics       dynamics(mesh, solid, parameters);
       dynamics.add<DampedNodes>(0, [&](const Point<3> &p) { return p[0] > 0.03 ? rate : 0.; });
-      const double      omega    = 2. / undamped.critical_time_step();
+      const double      omega    = 2. / undamped.critical_step().seconds();
       const double      expected = 4. / (rate + std::sqrt(rate * rate + 4. * omega * omega));
       const std::string name     = "nodes damped with " + std::to_string(int(1e-6 * rate)) + " per us: ";
       // Three digits are kept of the frequency, of the undamped step as well, and of the rate, which has one.
-      check.relative(name + "time step, us", 1e6 * dynamics.critical_time_step(), 1e6 * expected, 1e-9);
-      check.relative(name + "shortened by", dynamics.slowed_by_supports(),
-                     undamped.critical_time_step() / dynamics.critical_time_step(), 1e-12);
+      check.relative(name + "time step, us", 1e6 * dynamics.critical_step().seconds(), 1e6 * expected, 1e-9);
+      check.relative(name + "shortened by", dynamics.critical_step().slowed_by_supports(),
+                     undamped.critical_step().seconds() / dynamics.critical_step().seconds(), 1e-12);
       set_random_velocities(dynamics, 1.);
       dynamics.start();
       const double first = energy_of(dynamics);
@@ -312,7 +312,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
           }
       });
       check.that(name + "the cells alone would allow a longer step",
-                 rail.dynamics->slowed_by_supports() > 1.5);
+                 rail.dynamics->critical_step().slowed_by_supports() > 1.5);
       check.that(name + "stable " + said, said.empty());
       check.below(name + "energy residual/gross work", rail.dynamics->ledger().residual_share(), 0.01);
     }

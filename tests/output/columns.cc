@@ -221,12 +221,28 @@ namespace
             together({time_and_energies, first_wheel}));
 
     // A rail of slices, of one piece and of two.
-    Expected of_slices = together({time_and_energies, first_wheel, {{"wheelset_height_m", -0.83e-3}}});
-    compare(check, "history.csv of slices", history_columns({1, false, false, {}, false, false, true}), row,
-            of_slices);
+    Expected     of_slices = together({time_and_energies, first_wheel, {{"wheelset_height_m", -0.83e-3}}});
+    HistoryParts parts{1, false, false, {}};
+    parts.has_slices = true;
+    compare(check, "history.csv of slices", history_columns(parts), row, of_slices);
     of_slices.push_back({"inner_normal_force_N", 4.2e3});
-    compare(check, "history.csv of two pieces",
-            history_columns({1, false, false, {}, false, false, true, true}), row, of_slices);
+    parts.has_two_pieces = true;
+    compare(check, "history.csv of two pieces", history_columns(parts), row, of_slices);
+
+    // A rail on a base that moves.
+    row.rail_base           = {Vector3{0.13e-3, -0.017e-3, -0.19e-3, 0.}, 0.23e-3};
+    parts                   = {1, false, false, {}};
+    parts.base_moves_across = true;
+    const Expected one      = together({time_and_energies, first_wheel});
+    compare(check, "history.csv of a track that runs along", history_columns(parts), row,
+            together({one, {{"rail_base_lateral_m", -0.017e-3}, {"rail_base_vertical_m", -0.19e-3}}}));
+    parts.base_moves_across = false;
+    parts.base_pitches      = true;
+    compare(
+      check, "history.csv of a beam", history_columns(parts), row,
+      together(
+        {one,
+         {{"spring_energy_J", 4.1}, {"rail_base_vertical_m", -0.19e-3}, {"rail_base_slope_rad", 0.23e-3}}}));
 
     // A wheel in the air has no traction coefficient, and the table no nan.
     row.wheels.front().force = Vector3{};

@@ -14,7 +14,7 @@ from tread.crossing_force import SLICES
 from tread.files import input_of, read_table
 from tread.positions import rows_of, solve
 from tread.runs import ROOT, arguments_of, execute, must_end_well
-from tread_runner import Check, run, table
+from tread_runner import Check, run, run_stopped, table
 
 program = sys.argv[1]
 check = Check()
@@ -87,6 +87,23 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("height of the wheelset at the end, mm", 1e3 * history["wheelset_height_m"][-1], 1e3 * way["wheelset_height_m"], 0.01)
     check.energy("over the nose: ", way, 0.01)
 
+    # On a beam that hardly moves the force is that on a base that hardly moves; the one of the scene gives way, pitches as the load passes, and nothing is lost.
+    beam = [*rolled, "Track/Foundation=beam", "Track/Support 0 (mm)=300"]
+    firm = run(program, PASSAGE, path("firm"), [*beam, "Track/Beam mass (kg per m)=100000", "Track/Beam bending stiffness (MN m2)=10000", "Track/Beam shear stiffness (MN)=1000000"])
+    heavy = run(program, PASSAGE, path("heavy"), [*rolled, "Track/Co-running mass (kg)=100000"])
+    check.relative("on a heavy beam as on a heavy base: largest force, N", max(table(path("firm"), "history.csv")["normal_force_N"]),
+                   max(table(path("heavy"), "history.csv")["normal_force_N"]), 1e-3)
+    check.that("of what the beam has nothing is unused, across nothing moves", not any("Beam" in line or "Sleeper" in line for line in firm["unused_parameters"])
+               and "rail_base_lateral_m" not in table(path("firm"), "history.csv"))
+    bits = [*beam, "Scene/Reproducible=true"]
+    soft = run(program, PASSAGE, path("beam"), bits, 2)
+    check.energy("over the nose, on a beam: ", soft, 0.01)
+    moved = table(path("beam"), "history.csv")
+    check.that("the base moves and turns with the load", max(abs(np.array(moved["rail_base_vertical_m"]))) > 1e-6 and max(abs(np.array(moved["rail_base_slope_rad"]))) > 1e-5)
+    run_stopped(program, PASSAGE, path("stopped"), bits, len(moved["position_m"]) // 2)
+    run(program, PASSAGE, path("stopped"), bits, 1, more=["--resume"])
+    check.that("stopped, resumed and on two ranks: the same bytes", open(os.path.join(path("stopped"), "history.csv"), "rb").read() == open(os.path.join(path("beam"), "history.csv"), "rb").read())
+
     # Without inertia the wheel keeps its load on a wing that sinks by 6 um in a millimetre: a hub that is not carried along loses a quarter of it.
     steady = run(program, PASSAGE, path("steady"), ["Scene/Quasi-static=true", "Scene/Density scale=9", "Track/Foundation=rigid", "Rail/Slices place (mm)=165",
                                                     "Motion/Rolled distance (mm)=6", "Mesh/Finest cell (mm)=0.8", "Output/Write volume=false"])
@@ -120,6 +137,9 @@ with tempfile.TemporaryDirectory() as folder:
     refused = lambda what, scene, settings, words: check.refused(what, program, scene, path("refused"), settings, words)
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
+    refused("a beam with a support under the rail", PASSAGE, ["Track/Foundation=beam", "Motion/Rolled distance (mm)=3"], ["must lie between the pads of two supports", "'Track/Support 0 (mm)'"])
+    refused("a beam lighter than its cells", PASSAGE, [*beam, "Track/Beam mass (kg per m)=10"], ["'Track/Beam mass (kg per m)' 10", "are needed"])
+    refused("a beam under a foot", "smooth-rolling.prm", ["Track/Foundation=beam", "Rail/Shape=full section", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], ["'Track/Foundation' beam", "'Rail/Shape'"])
     refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])
     check.refused("points over the shift", program, PASSAGE, path("refused"), [], ["--shift-to", "'Rail/Shape' slices"], more=["--shift-to", "5"], command="contact-points")
     refused("a full section", PASSAGE, ["Rail/Shape=full section"], ["'Rail/Slices' need 'Rail/Shape' slices"])

@@ -152,7 +152,7 @@ namespace
       hub.motion.angular_velocity = 1.002 * speed / axle_height;
       dynamics.set_bending_velocities();
       dynamics.set_rigid_velocities();
-      contact.scale_impulses(dynamics_parameters().courant_number * dynamics.critical_time_step());
+      contact.scale_impulses(dynamics_parameters().courant_number * dynamics.critical_step().seconds());
       dynamics.start();
     }
 
@@ -166,7 +166,7 @@ namespace
           if (dynamics.synchronised())
             strip.sample(dynamics, {}, hub.motion.x);
         }
-      dynamics.check_cells();
+      dynamics.critical_step().check_cells();
     }
 
     void serialize(Archive &archive)
@@ -301,7 +301,7 @@ namespace
     all("step and time", a.dynamics.state.n_steps == b.dynamics.state.n_steps &&
                            same_bits(a.dynamics.state.time, b.dynamics.state.time));
     all("time step", same_bits(a.dynamics.state.time_step, b.dynamics.state.time_step) &&
-                       same_bits(a.dynamics.critical_time_step(), b.dynamics.critical_time_step()));
+                       same_bits(a.dynamics.critical_step().seconds(), b.dynamics.critical_step().seconds()));
     all("positions", same_bits(a.dynamics.state.positions(), b.dynamics.state.positions()));
     all("velocities", same_bits(a.dynamics.state.v, b.dynamics.state.v));
     all("plastic history", same_bits(a.dynamics.state.history.values, b.dynamics.state.history.values));

@@ -250,9 +250,9 @@ namespace
       Bar      bar(1.2, 24);
       Supports supports(bar.mesh, 0, {-.4, 0., .4}, track);
       bar.dynamics.add<RailOnSupports>(supports, tests::steel());
-      return bar.dynamics.critical_time_step();
+      return bar.dynamics.critical_step().seconds();
     };
-    const double of_cells = Bar(1.2, 24).dynamics.critical_time_step();
+    const double of_cells = Bar(1.2, 24).dynamics.critical_step().seconds();
     const auto   expected = [&](const TrackParameters::Springs &own) {
       const double K = (2. * own.pad_stiffness + own.ballast_stiffness) / mass +
                        4. / (of_cells * of_cells), // both in turn, as the bound has them

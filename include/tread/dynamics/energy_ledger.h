@@ -31,7 +31,10 @@ namespace tread
       return external_work -
              (kinetic + strain + hourglass + springs + friction + contact + damping + plastic + window);
     }
-    double residual_share() const;
+    double residual_share() const
+    {
+      return gross_work > 0. ? residual() / gross_work : 0.;
+    }
 
     /// Energy dissipated by friction, plastic strain, damping and contact. Drive and guidance pass much more
     /// energy through the contact, which is no measure for errors.

@@ -56,6 +56,28 @@ namespace tread
     return line;
   }
 
+  /// Add the columns of one of the parts of a row, with a prefix to their names. @param part of the row
+  template <typename Row, typename Part, typename PartOf>
+  void add_columns(Columns<Row>        &columns,
+                   const Columns<Part> &of_part,
+                   const std::string   &prefix,
+                   const PartOf        &part)
+  {
+    for (const Column<Part> &column : of_part)
+      {
+        Column<Row> own{prefix + column.name, column.unit, column.about, {}, {}};
+        if (column.word)
+          own.word = [part, word = column.word](const Row &r) {
+            return word(part(r));
+          };
+        else
+          own.value = [part, value = column.value](const Row &r) {
+            return value(part(r));
+          };
+        columns.push_back(own);
+      }
+  }
+
   /// A table for those who read it.
   struct TableDescription
   {
@@ -107,7 +129,8 @@ namespace tread
     bool             moves_across;              ///< the first one, across its track
     bool             has_both_wheels;           ///< the first one's wheelset
     std::vector<int> supports;                  ///< their numbers
-    bool             has_rail_base     = false; ///< one that moves
+    bool             base_moves_across = false; ///< of the rail, on a track that runs along
+    bool             base_pitches      = false; ///< on a beam
     bool             has_flexible_axle = false; ///< the first one's wheelset
     bool             has_slices        = false; ///< a rail that changes along the way
     bool             has_two_pieces    = false; ///< of it, such as nose and wing

@@ -29,6 +29,7 @@
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
 #include <tread/scene/wheelset_motion.h>
+#include <tread/track/base_on_beam.h>
 #include <tread/track/rail_base.h>
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
@@ -201,8 +202,10 @@ namespace tread
     /// What surfaces lose, with its parameters; null: nothing.
     std::shared_ptr<const WearLaw> wear_law() const;
 
-    TrackParameters    track_parameters() const;
-    RailBaseParameters rail_base_parameters() const;
+    TrackParameters track_parameters() const;
+    CoRunningTrack  co_running_track() const;
+    /// Under the meshed piece of the rail, its cells' mass included.
+    BeamUnderRail beam_under_rail() const;
     /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
     AbsorbingEnds absorbing_ends() const;
     /// The track beyond the ends of the rail, if these are endless.
@@ -405,6 +408,7 @@ namespace tread
     bool                    has_fitted_lateral_radius() const;
 
   private:
+    TrackBeyondParameters track_beyond_alike() const; ///< but for the place of the first support
     /// Read a file and settings, unchecked.
     void take(const std::string &file, const std::vector<std::string> &settings);
     /// @throws InputError unless it lasts as long as the run, in positions that are allowed
@@ -467,6 +471,7 @@ namespace tread
     void        check_window() const;
     double      usual_window() const; ///< way in one, m
     void        check_friction_by_temperature() const;
+    void        check_beam() const;
     void        check_track() const;
     void        check_overhang() const;
     void        check_plasticity() const;

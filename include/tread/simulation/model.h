@@ -112,7 +112,9 @@ namespace tread
     /// @throws InputError if mass was added to more than the few finest cells. Collective.
     void check_added_mass() const;
     void add_supports();
-    void add_friction_that_varies();
+    /// @throws InputError if it weighs less than the cells. Collective.
+    BeamUnderRail beam_without_cells() const;
+    void          add_friction_that_varies();
   };
 } // namespace tread
 

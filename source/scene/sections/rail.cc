@@ -11,7 +11,8 @@ namespace tread
   const std::vector<Choice<RailShape>> &choices()
   {
     static const std::vector<Choice<RailShape>> list{
-      {RailShape::head, "head", "the head of a rail profile on a rigid foundation."},
+      {RailShape::head, "head",
+       "the head of a rail profile; its bottom is held, or moves with what stands for the track."},
       {RailShape::full_section, "full section", "head, web and foot, held at the foot."},
       {RailShape::block, "block", "a box with a cylindrical crown, to compare with half-space theory."},
       {RailShape::slices, "slices",
@@ -142,11 +143,11 @@ namespace tread
                 "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
                 "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
                 Double(0.05, 100.));
-    section.add(
-      "Spans beyond", spans_beyond,
-      "Sleeper spans of the beam behind each endless end, whose farther half absorbs what arrives. "
-      "Their supports are those of section Track, all alike, whatever 'Track/Support file' has.",
-      Integer(4, 1000));
+    section.add("Spans beyond", spans_beyond,
+                "Sleeper spans of the beam behind each endless end, or each end of a piece on a beam "
+                "('Track/Foundation'), whose farther half absorbs what arrives. "
+                "Their supports are those of section Track, all alike, whatever 'Track/Support file' has.",
+                Integer(4, 1000));
     material.declare(section);
   }
 

@@ -12,7 +12,11 @@ namespace tread
       {Foundation::two_layer, "two-layer", "pads, sleepers and ballast."},
       {Foundation::co_running, "co-running",
        "the rail's bottom stays in shape and moves up, down and across on springs and dampers under a mass, "
-       "all of which run along with the wheel; for one wheel, also in a wheelset's position."}};
+       "all of which run along with the wheel; for one wheel, also in a wheelset's position."},
+      {Foundation::beam, "beam",
+       "the rail's bottom stays straight, moves up and down and pitches as the middle of a beam on pads, "
+       "sleepers and ballast that goes on beyond both of its ends; for one wheel between two supports, also "
+       "in a wheelset's position."}};
     return list;
   }
 
@@ -92,10 +96,11 @@ namespace tread
                 "Vertical stiffness of the ballast under one rail's half of a sleeper.", stiffness);
     section.add("Ballast damping (kN s per m)", ballast_damping,
                 "Vertical damping of the ballast under one rail's half of a sleeper.", damping);
-    section.add("Stiffness along the rail (MN per m)", stiffness_along,
-                "With which each support beyond endless ends ('Rail/Ends') holds the rail along itself. Those "
-                "under the cells hold it vertically only.",
-                Double(0., 1e6));
+    section.add(
+      "Stiffness along the rail (MN per m)", stiffness_along,
+      "With which each support beyond endless ends ('Rail/Ends') holds the rail along itself. Those "
+      "under the cells hold it vertically only.",
+      Double(0., 1e6));
     section.add(
       "Support file", support_file,
       "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "
@@ -116,6 +121,14 @@ namespace tread
                 "Lateral stiffness of the co-running track.", stiffness);
     section.add("Lateral damping (kN s per m)", lateral_damping, "Lateral damping of the co-running track.",
                 damping);
+    section.add("Beam bending stiffness (MN m2)", beam_bending_stiffness,
+                "E I of the rail's whole section, of which a beam is made. The default is a 60E1 rail's; a "
+                "crossing has several times as much.",
+                Double(1e-3, 1e4));
+    section.add("Beam shear stiffness (MN)", beam_shear_stiffness, "The same in shear, kappa G A.",
+                Double(1e-1, 1e6));
+    section.add("Beam mass (kg per m)", beam_mass, "The same: mass per length, that of the cells included.",
+                Double(1e-1, 1e5));
   }
 
 
@@ -127,7 +140,7 @@ namespace tread
 
   void TrackSection::check() const
   {
-    if (!has_supports())
+    if (!has_supports() && !is_beam())
       return;
     require(pad_length < sleeper_spacing, "'Track/Pad length (mm)' " + text_in_mm(pad_length) +
                                             " must be below the sleeper spacing, " +

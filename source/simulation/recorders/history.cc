@@ -20,6 +20,7 @@ namespace tread
               scene.wheelset.both_wheels,
               scene.recorded_supports(),
               scene.track.runs_along(),
+              scene.track.is_beam(),
               scene.wheelset.has_flexible_axle(),
               scene.rail.is_sliced(),
               model.between_pieces.has_value(),

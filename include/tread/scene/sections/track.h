@@ -11,7 +11,8 @@ namespace tread
     rigid,
     one_layer,
     two_layer,
-    co_running
+    co_running,
+    beam
   };
 
   template <>
@@ -40,11 +41,13 @@ namespace tread
     double       sleeper_young_modulus = 38.4e9, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
     double       ballast_stiffness = 45e6, ballast_damping = 32e3;
     double       stiffness_along = 40e6; ///< of a support beyond endless ends
-    bool         pads_pull = true;
+    bool         pads_pull       = true;
     std::string  support_file; ///< supports with springs of their own; empty: none
     double       co_running_mass    = 450.;
     double       vertical_stiffness = 100e6, vertical_damping = 60e3, lateral_stiffness = 30e6,
            lateral_damping = 30e3;
+    // 60E1
+    double beam_bending_stiffness = 6.4e6, beam_shear_stiffness = 250e6, beam_mass = 60.2;
 
     bool has_supports() const
     {
@@ -53,6 +56,15 @@ namespace tread
     bool runs_along() const
     {
       return foundation == Foundation::co_running;
+    }
+    bool is_beam() const
+    {
+      return foundation == Foundation::beam;
+    }
+    /// The rail's bottom stays in shape and moves.
+    bool has_moving_base() const
+    {
+      return runs_along() || is_beam();
     }
     bool has_solid_sleepers() const
     {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The friction law of a scene, and how long it has to remember.
+#include <tread/base/format.h>
+#include <tread/contact/remembering_friction.h>
+#include <tread/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread
+{
+  namespace
+  {
+    /// The memory of friction that is taken, over the least for which slip is steady by a linear law, and the
+    /// least that nothing is said of: at once the least, a steep law lost 14 % of its traction, and 1 % at
+    /// twice.
+    constexpr double memory_room = 3., least_room = 1.5;
+  } // namespace
+
+
+  void Scene::check_friction_by_temperature() const
+  {
+    if (contact.temperatures.empty())
+      return;
+    const std::string name = "'Contact/Friction temperatures (C)' needs ";
+    require(damage.record, name + "'Damage/Record' true, which finds the temperatures");
+    require(!damage.wheel_share,
+            name +
+              "'Damage/Heat share of the wheel' automatic, with which both surfaces have one temperature");
+    require(friction_law()->is_constant(),
+            name + "'Contact/Friction law' Coulomb: slip and heat would make friction fall twice");
+    const double largest =
+      contact.friction_coefficient *
+      *std::max_element(contact.temperature_factors.begin(), contact.temperature_factors.end());
+    constexpr double most = 2.; // as of the coefficient itself
+    require(largest <= most, "'Contact/Friction temperature factors' make the friction coefficient " +
+                               text_of(largest) + "; at most " + text_of(most) + " is allowed");
+  }
+
+
+  std::string Scene::short_memory() const
+  {
+    const auto   law    = friction_law();
+    const double needed = law->is_constant() ? 0. : needed_memory(*law);
+    if (law->memory().distance >= needed * least_room / memory_room)
+      return "";
+    return format(
+      "'Contact/Friction memory (mm)' %g lets slip oscillate by itself, which takes friction away: "
+      "'automatic' takes %.2g, and half-space theory beside has the same",
+      1e3 * law->memory().distance, 1e3 * needed);
+  }
+
+
+  double Scene::needed_memory(const FrictionLaw &law) const
+  {
+    // An upright wheel on a crown of its own radius stands for all: pressure and length go with the cube root
+    // of the load.
+    const ElasticMaterial of_wheel = wheel.material.elastic(), of_rail = rail.material.elastic();
+    const auto            compliance = [](const ElasticMaterial &m) {
+      return (1. - m.poisson_ratio * m.poisson_ratio) / m.young_modulus;
+    };
+    const double modulus = 1. / (compliance(of_wheel) + compliance(of_rail)), shear = of_rail.shear_modulus(),
+                 load = static_load(), a = std::cbrt(0.75 * load * wheel.radius / modulus),
+                 pressure = 1.5 * load / (dealii::numbers::PI * a * a);
+    // Waves carry this much away, half the shear impedance. Cells of scaled density would carry more, but
+    // shake before that is reached: a third to all of the slip speed, between two and five times this value.
+    const double impedance = 0.5 * std::sqrt(of_rail.density * shear);
+    // What slides in a patch slides no faster than this; where nothing says how fast, or a profile adds its
+    // own, a hundredth of the speed.
+    constexpr double of_profile     = 0.01;
+    const double     given          = motion.creepage ? std::abs(*motion.creepage) : 0.,
+                 fastest            = motion.speed * (given + of_profile + std::abs(motion.lateral_creepage) +
+                                           std::abs(motion.spin) * a);
+    double                 steepest = 0., of_speed = 0.; // largest -f'(s) and -s f'(s)
+    constexpr unsigned int n = 400;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double s = fastest * (i + 0.5) / n, step = 0.5 * fastest / n,
+                     slope = (law.coefficient(s - step) - law.coefficient(s + step)) / (2. * step);
+        steepest           = std::max(steepest, slope);
+        of_speed           = std::max(of_speed, s * slope);
+      }
+    if (pressure * steepest <= impedance)
+      return 0.;
+    // Slip that a memory d delays is steady where the stiffness k of the bodies against it exceeds
+    // s (p |f'| - impedance) / d (linear stability of a slider whose friction follows its slip over a
+    // distance). The softest waves of a patch have k = G / a. Found to be enough for partial slip and for
+    // sliding.
+    return memory_room * pressure * of_speed * a / shear;
+  }
+
+
+  std::shared_ptr<const FrictionLaw> Scene::friction_law() const
+  {
+    const Section section(handler, "Contact");
+    try
+      {
+        const auto law = make_friction_law(contact.friction_law, contact.friction_coefficient, handler);
+        if (law->memory().distance >= 0.)
+          return law;
+        return std::make_shared<RememberingFriction>(
+          law, FrictionLaw::Memory{needed_memory(*law), law->memory().speed});
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw InputError(error.what());
+      }
+  }
+} // namespace tread
