@@ -238,17 +238,18 @@ namespace tread
         if (parts.base_moves_across)
           columns.push_back(
             {"rail_base_lateral", "m", "Lateral displacement of the rail's bottom", [](const R &r) {
-               return r.rail_base.shift[1];
+               return r.rail_base[1];
              }});
         columns.push_back(
-          {"rail_base_vertical", "m", "Vertical displacement of the rail's bottom", [](const R &r) {
-             return r.rail_base.shift[2];
+          {"rail_base_vertical", "m",
+           "Vertical displacement of the rail's bottom, on a beam under the wheel, since the start",
+           [](const R &r) {
+             return r.rail_base[2];
            }});
         if (parts.base_pitches)
           columns.push_back({"rail_base_slope", "rad",
-                             "Slope of the rail's bottom since the start, positive where it rises along x",
-                             [](const R &r) {
-                               return r.rail_base.slope;
+                             "The same of its slope, positive where it rises along x", [](const R &r) {
+                               return r.rail_base_slope;
                              }});
       }
     const Columns<SupportRecord> of_support{

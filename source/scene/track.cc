@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/csv_table.h>
 #include <tread/scene/scene.h>
+#include <tread/track/track_beam.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -137,7 +138,7 @@ namespace tread
   }
 
 
-  CoRunningTrack Scene::co_running_track() const
+  RailBaseParameters Scene::rail_base_parameters() const
   {
     return {track.co_running_mass,
             {track.vertical_stiffness, track.vertical_damping},
@@ -161,24 +162,25 @@ namespace tread
     beam.section.mass              = track.beam_mass;
     beam.section.rotary_inertia    = track.beam_bending_stiffness * steel.density / steel.young_modulus;
     beam.axial_stiffness           = track.beam_mass * steel.young_modulus / steel.density;
-    beam.length                    = rail_end() - rail_begin();
-    beam.mass                      = beam.length * track.beam_mass;
-    beam.beyond.fill(track_beyond_alike());
-    const double before          = track.support_0 + track.sleeper_spacing * (first_support() - 1);
-    beam.beyond[0].first_support = rail_begin() - before;
-    beam.beyond[1].first_support = before + track.sleeper_spacing - rail_end();
-    // At rest it carries nothing but the cells and the wheel.
-    for (TrackBeyondParameters &end : beam.beyond)
-      end.gravity = 0.;
+    beam.track                     = track_beam_alike();
+    beam.track.gravity             = 0.; // it carries nothing but the cells and the wheel
+    // So many spans go on beyond both ends of the piece.
+    const int beyond         = rail.spans_beyond - 1,
+              first          = std::floor((rail_begin() - track.support_0) / track.sleeper_spacing) - beyond,
+              last           = std::ceil((rail_end() - track.support_0) / track.sleeper_spacing) + beyond;
+    beam.track.n_spans       = last - first + 1;
+    beam.track.first_support = 0.5 * track.sleeper_spacing;
+    beam.begin               = track.support_0 + (first - 0.5) * track.sleeper_spacing;
+    beam.track.loaded        = {rail_begin() - beam.begin, rail_end() - beam.begin, 0.};
     return beam;
   }
 
 
-  TrackBeyondParameters Scene::track_beyond_alike() const
+  TrackBeamParameters Scene::track_beam_alike() const
   {
     TrackParameters alike = track_parameters();
     alike.exceptions.clear();
-    TrackBeyondParameters p;
+    TrackBeamParameters p;
     p.n_spans         = rail.spans_beyond;
     p.spacing         = track.sleeper_spacing;
     p.stiffness_along = track.stiffness_along;
@@ -189,13 +191,13 @@ namespace tread
   }
 
 
-  std::optional<std::array<TrackBeyondParameters, 2>> Scene::track_beyond() const
+  std::optional<std::array<TrackBeamParameters, 2>> Scene::track_beyond() const
   {
     if (rail.ends != EndKind::endless)
       return {};
-    const TrackBeyondParameters p      = track_beyond_alike();
-    const std::vector<double>   places = support_positions();
-    TrackBeyondParameters       before = p, behind = p;
+    const TrackBeamParameters p      = track_beam_alike();
+    const std::vector<double> places = support_positions();
+    TrackBeamParameters       before = p, behind = p;
     before.first_support = track.sleeper_spacing - (places.front() - rail_begin());
     behind.first_support = track.sleeper_spacing - (rail_end() - places.back());
     return std::array{before, behind};
@@ -215,20 +217,6 @@ namespace tread
             "'Track/Foundation' beam needs a piece of a rail that is stiffer than the beam under it: "
             "'Rail/Shape' must be head, block or slices");
     track.check();
-    const BeamUnderRail beam   = beam_under_rail();
-    const double        clear  = 0.5 * track.pad_length - same_place;
-    const double        middle = 0.5 * (rail_begin() + rail_end());
-    require(support_positions().empty() && beam.beyond[0].first_support >= clear &&
-              beam.beyond[1].first_support >= clear,
-            "'Track/Foundation' beam: the rail, from x = " + text_in_mm(rail_begin()) + " to " +
-              text_in_mm(rail_end()) +
-              " mm, must lie between the pads of two supports, 'Sleeper spacing (m)' " +
-              text_of(track.sleeper_spacing) + " apart" +
-              (beam.length + track.pad_length <= track.sleeper_spacing
-                 ? "; with 'Track/Support 0 (mm)' " +
-                     text_in_mm(1e-3 * std::round(1e3 * (middle + 0.5 * track.sleeper_spacing))) +
-                     " it is in the middle of a span"
-                 : ""));
   }
 
 

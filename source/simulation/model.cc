@@ -2,11 +2,10 @@
 // From a scene to what rolls.
 #include <tread/analysis/seat_modes.h>
 #include <tread/base/format.h>
-#include <tread/base/input_error.h>
-#include <tread/base/reproducible_sum.h>
 #include <tread/dynamics/parts/added_mass.h>
 #include <tread/dynamics/parts/nodes.h>
 #include <tread/dynamics/parts/rail_base.h>
+#include <tread/dynamics/parts/rail_on_beam.h>
 #include <tread/dynamics/parts/supports.h>
 #include <tread/dynamics/parts/track_beyond.h>
 #include <tread/dynamics/parts/wheel.h>
@@ -14,6 +13,7 @@
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/model.h>
 #include <tread/track/rail_ends.h>
+#include <tread/track/track_beam.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -57,11 +57,12 @@ namespace tread
           dynamics.add<AddedMassOnWheel>(carrier);
       }
     if (scene.track.runs_along())
-      rail_base = std::make_unique<CoRunningBase>(scene.co_running_track());
-    else if (scene.track.is_beam())
-      rail_base = std::make_unique<BaseOnBeam>(beam_without_cells());
-    if (rail_base)
-      dynamics.add<RailOnBase>(*rail_base, rail_body);
+      {
+        rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());
+        dynamics.add<RailOnBase>(*rail_base, rail_body);
+      }
+    if (scene.track.is_beam())
+      rail_on_beam = &dynamics.add<RailOnBeam>(scene.beam_under_rail(), rail_body);
     dynamics.attach_contact(contact);
     if (window.number == 0)
       check_added_mass();
@@ -128,25 +129,6 @@ namespace tread
                    "allowed (without it --dry-run prints what several steps add)",
                    1e6 * scene.time_stepping.least_step, added.rail, added.wheels,
                    100. * added.error_estimate, 100. * AddedMass::largest_error));
-  }
-
-
-  BeamUnderRail Model::beam_without_cells() const
-  {
-    BeamUnderRail           beam = scene.beam_under_rail();
-    ReproducibleSum<double> on_base; // what nodes that the base carries would weigh does not act
-    for (const unsigned int i : dynamics.support_nodes(rail_body))
-      if (mesh.shared_nodes.is_owned(i))
-        on_base.add(dynamics.true_masses()[i]);
-    const double cells = dynamics.masses_of_bodies()[rail_body].own - on_base.value(comm), whole = beam.mass;
-    beam.mass -= cells;
-    constexpr double least = 0.25; // of the whole: lighter ones could need shorter steps
-    require(beam.mass >= least * whole,
-            format("'Track/Beam mass (kg per m)' %g: the meshed piece of the rail has %.3g kg, so that at "
-                   "least %g kg/m "
-                   "are needed",
-                   scene.track.beam_mass, cells, std::ceil(cells / (1. - least) / beam.length)));
-    return beam;
   }
 
 

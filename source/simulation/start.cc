@@ -2,6 +2,7 @@
 // How a wheel comes to stand on the rail and begins to roll.
 #include <tread/base/format.h>
 #include <tread/dynamics/parts/rail_base.h>
+#include <tread/dynamics/parts/rail_on_beam.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/simulation.h>
 #include <tread/track/supports.h>
@@ -153,7 +154,7 @@ namespace tread
         wheel.hub.motion.angular_velocity =
           scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
       }
-    if (model.supports || model.rail_base)
+    if (model.supports || model.rail_on_beam)
       model.dynamics.set_bending_velocities();
     model.dynamics.set_rigid_velocities();
     model.contact.scale_impulses(scene.time_stepping.courant_number *
@@ -213,7 +214,8 @@ namespace tread
         // On a track the rail is bent where the wheel before stood: it begins straight again, and finds its
         // residual stresses and strains anew from what the cells remember.
         for (unsigned int i = 0; i < model.mesh.nodes.size(); ++i)
-          if (model.supports || model.rail_base || model.mesh.node_bodies[i] == wheel.body)
+          if (model.supports || model.rail_base || model.rail_on_beam ||
+              model.mesh.node_bodies[i] == wheel.body)
             model.dynamics.state.set_position(
               i, Vector3{model.mesh.nodes[i][0], model.mesh.nodes[i][1], model.mesh.nodes[i][2], 0.});
         model.solid.plastic().forget(wheel.body, model.dynamics.state.history);
@@ -223,6 +225,8 @@ namespace tread
       model.supports->set_at_rest(model.dynamics.state.positions().data());
     if (model.rail_base)
       model.rail_base->place();
+    if (model.rail_on_beam)
+      model.rail_on_beam->place();
     for (const auto &recorder : recorders)
       recorder->begin_passage();
     model.contact.scale_impulses(0.);

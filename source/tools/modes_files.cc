@@ -8,6 +8,7 @@
 #include <tread/scene/parts.h>
 #include <tread/simulation/rolling_wheel.h>
 #include <tread/tools/modes_files.h>
+#include <tread/track/track_beam.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>

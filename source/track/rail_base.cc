@@ -5,24 +5,24 @@
 
 namespace tread
 {
-  void CoRunningBase::place()
+  void RailBase::place()
   {
     state.displacement = state.velocity = Vector3{};
     state.held.reset();
   }
 
 
-  void CoRunningBase::advance(const Load &load, const double time_step)
+  void RailBase::advance(const Vector3 force, const double time_step)
   {
     if (!state.held)
-      state.held = -load.force;
-    const SpringAndDamper *along[] = {nullptr, &track.lateral, &track.vertical};
+      state.held = -force;
+    const SpringAndDamper *along[] = {nullptr, &parameters.lateral, &parameters.vertical};
     for (unsigned int d = 1; d < 3; ++d)
       {
         const double before = state.velocity[d];
         const double support =
           (*state.held)[d] - along[d]->stiffness * state.displacement[d] - along[d]->damping * before;
-        state.velocity[d] += time_step * (load.force[d] + support) / track.mass;
+        state.velocity[d] += time_step * (force[d] + support) / parameters.mass;
         state.displacement[d] += time_step * state.velocity[d];
         const double work = 0.5 * time_step * support * (before + state.velocity[d]);
         state.work += work;
@@ -31,7 +31,7 @@ namespace tread
   }
 
 
-  void CoRunningBase::serialize(Archive &archive)
+  void RailBase::serialize(Archive &archive)
   {
     archive.same(state);
   }

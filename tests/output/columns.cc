@@ -230,7 +230,8 @@ namespace
     compare(check, "history.csv of two pieces", history_columns(parts), row, of_slices);
 
     // A rail on a base that moves.
-    row.rail_base           = {Vector3{0.13e-3, -0.017e-3, -0.19e-3, 0.}, 0.23e-3};
+    row.rail_base           = Vector3{0.13e-3, -0.017e-3, -0.19e-3, 0.};
+    row.rail_base_slope     = 0.23e-3;
     parts                   = {1, false, false, {}};
     parts.base_moves_across = true;
     const Expected one      = together({time_and_energies, first_wheel});

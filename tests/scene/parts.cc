@@ -10,6 +10,7 @@
 #include <tread/scene/parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
+#include <tread/track/track_beam.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -441,7 +442,7 @@ namespace
                    1e-9);
     check.absolute("track beyond: first support behind the rail, mm", 1e3 * (*beyond)[1].first_support, 440.,
                    1e-9);
-    for (const TrackBeyondParameters &p : *beyond)
+    for (const TrackBeamParameters &p : *beyond)
       {
         check.absolute("track beyond: spans", p.n_spans, 17, 0.);
         check.relative("track beyond: spacing, mm", 1e3 * p.spacing, 610., round_off);

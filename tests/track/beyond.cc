@@ -37,12 +37,12 @@ namespace
 
   TrackBeyondBoth beyond(const TrackParameters &track, const double gravity = 0.)
   {
-    TrackBeyondParameters p;
+    TrackBeamParameters p;
     p.spacing       = tests::spacing;
     p.first_support = .5 * tests::spacing;
     p.layers        = track.layers(0);
     p.gravity       = gravity;
-    return std::array<TrackBeyondParameters, 2>{{p, p}};
+    return std::array<TrackBeamParameters, 2>{{p, p}};
   }
 
   using Corners = std::array<std::array<double, 2>, 4>;
@@ -117,7 +117,7 @@ namespace
     auto         track  = (*beyond(points()))[0];
     const double EA     = 210e9 * .06 * .15;
     track.first_support = .2;
-    TrackBeyond one(bar.section, EA, track);
+    TrackBeam one(bar.section, EA, track);
     // Half of a beam under a force, or under a moment, between two supports.
     std::vector<double> places;
     for (unsigned int s = 0; s < track.n_spans; ++s)
@@ -145,7 +145,7 @@ namespace
     // Where all supports sink alike.
     track.gravity       = 10.;
     track.first_support = .5 * tests::spacing;
-    TrackBeyond  heavy(bar.section, EA, track);
+    TrackBeam    heavy(bar.section, EA, track);
     const double of_span = track.gravity * bar.section.mass * tests::spacing,
                  sleepers =
                    -(of_span + track.gravity * track.layers.sleeper_mass) / track.layers.ballast_stiffness,
@@ -175,8 +175,8 @@ namespace
     reference::BeamSection section = rail.section;
     section.shear_stiffness =
       rail_section_properties(quads).shear_coefficient * tests::steel().shear_modulus() * .06 * .15;
-    TrackBeyond one(section, EA, (*both)[0]);
-    const auto  displaced = [&](const auto &by) {
+    TrackBeam  one(section, EA, (*both)[0]);
+    const auto displaced = [&](const auto &by) {
       State state = rail.dynamics->state;
       for (unsigned int i = 0; i < rail.mesh->nodes.size(); ++i)
         state.x_damped[i] += small * by(rail.mesh->nodes[i]);
@@ -193,7 +193,7 @@ namespace
         work -= .5 * small * dot(force[i], by(rail.mesh->nodes[i]));
       check.relative(name + ": work of the forces on the nodes (J)", work, 2. * energy, 1e-6);
     };
-    const auto energy_of = [&](const TrackBeyond::AtSection &at) {
+    const auto energy_of = [&](const TrackBeam::AtSection &at) {
       one.set_at_rest(at);
       return one.spring_energy();
     };
@@ -348,7 +348,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
                  .01);
   check.below("longitudinal pulse, endless: energy that comes back (%)", 100. * left_of_pulse(free), .02);
   // From the plane of symmetry behind the layer that absorbs, half of four spans.
-  for (TrackBeyondParameters &end : *free)
+  for (TrackBeamParameters &end : *free)
     end.n_spans = 4;
   const double kept = std::exp(-2. * AbsorbingEnds::strength / 3. / std::sqrt(2.6));
   check.absolute("longitudinal pulse: energy that comes back from the far end (%)",
@@ -356,7 +356,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
 
   // A rigid sleeper as two coordinates that move alike, each with twice its mass and springs: the same track.
   const auto in_two = [](TrackBeyondBoth both) {
-    for (TrackBeyondParameters &end : *both)
+    for (TrackBeamParameters &end : *both)
       {
         const reference::SupportLayers &rigid = end.layers;
         const double m = rigid.sleeper_mass, k = rigid.ballast_stiffness, c = rigid.ballast_damping;
@@ -365,12 +365,12 @@ void run_test(tests::Check &check, const tests::Arguments &)
     return both;
   };
   const auto force_at_rest = [&](const TrackBeyondBoth &both) {
-    TrackBeyond track(bar.section, 1e9, (*both)[0]);
+    TrackBeam track(bar.section, 1e9, (*both)[0]);
     track.set_at_rest({0., -1e-3, 2e-3});
     return track.present_force_on_section();
   };
-  const TrackBeyond::AtSection of_one = force_at_rest(beyond(points(), 9.81)),
-                               of_two = force_at_rest(in_two(beyond(points(), 9.81)));
+  const TrackBeam::AtSection of_one = force_at_rest(beyond(points(), 9.81)),
+                             of_two = force_at_rest(in_two(beyond(points(), 9.81)));
   check.relative("sleepers of two coordinates: force at rest, kN", 1e-3 * of_two.up, 1e-3 * of_one.up, 1e-9);
   check.relative("sleepers of two coordinates: moment at rest, kN m", 1e-3 * of_two.slope,
                  1e-3 * of_one.slope, 1e-9);

@@ -4,7 +4,7 @@
 
 #include <tread/analysis/elastic_system.h>
 #include <tread/track/supports.h>
-#include <tread/track/track_beyond.h>
+#include <tread/track/track_beam.h>
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include <tread/reference/supported_beam.h>
 #include <tread/solid/solid.h>
 #include <tread/track/supports.h>
-#include <tread/track/track_beyond.h>
+#include <tread/track/track_beam.h>
 
 #include <array>
 #include <memory>
@@ -17,7 +17,7 @@
 namespace tread
 {
   /// The track beyond both ends of a rail of cells, if it goes on there.
-  using TrackBeyondBoth = std::optional<std::array<TrackBeyondParameters, 2>>;
+  using TrackBeyondBoth = std::optional<std::array<TrackBeamParameters, 2>>;
 
   /// The rail of cells represented as a beam on its supports, with plane and rigid sections, and the track
   /// beyond it, if there is one: how it follows a load that moves.

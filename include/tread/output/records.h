@@ -5,7 +5,6 @@
 #include <tread/analysis/contact_patch.h>
 #include <tread/analysis/rail_stress.h>
 #include <tread/dynamics/explicit_dynamics.h>
-#include <tread/track/rail_base.h>
 
 #include <vector>
 
@@ -49,9 +48,11 @@ namespace tread
     double                     time, position; ///< of the first wheel
     std::vector<WheelRecord>   wheels;         ///< of all
     EnergyLedger               energy;
-    std::vector<SupportRecord> supports;  ///< those recorded
-    std::vector<CellRecord>    cells;     ///< likewise
-    RailBase::Motion           rail_base; ///< displacement of a rail's base that moves, at the end
+    std::vector<SupportRecord> supports; ///< those recorded
+    std::vector<CellRecord>    cells;    ///< likewise
+    /// Of a rail's bottom that moves, at the end; on a beam under the first wheel: m, rad.
+    Vector3 rail_base{};
+    double  rail_base_slope = 0.;
   };
 
   /// One row of patches.csv: a node in contact at one of the instants, SI units.

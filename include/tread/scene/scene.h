@@ -29,11 +29,9 @@
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
 #include <tread/scene/wheelset_motion.h>
-#include <tread/track/base_on_beam.h>
 #include <tread/track/rail_base.h>
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
-#include <tread/track/track_beyond.h>
 
 #include <cmath>
 #include <filesystem>
@@ -42,6 +40,8 @@
 
 namespace tread
 {
+  struct BeamUnderRail;
+  struct TrackBeamParameters;
   /// What a scene is read for.
   enum class SceneUse
   {
@@ -202,14 +202,14 @@ namespace tread
     /// What surfaces lose, with its parameters; null: nothing.
     std::shared_ptr<const WearLaw> wear_law() const;
 
-    TrackParameters track_parameters() const;
-    CoRunningTrack  co_running_track() const;
+    TrackParameters    track_parameters() const;
+    RailBaseParameters rail_base_parameters() const;
     /// Under the meshed piece of the rail, its cells' mass included.
     BeamUnderRail beam_under_rail() const;
     /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
     AbsorbingEnds absorbing_ends() const;
     /// The track beyond the ends of the rail, if these are endless.
-    std::optional<std::array<TrackBeyondParameters, 2>> track_beyond() const;
+    std::optional<std::array<TrackBeamParameters, 2>> track_beyond() const;
     /// Coordinates x of the supports on the rail, m, and the number of the first one. Support 0 lies where
     /// the scene places it.
     std::vector<double> support_positions() const;
@@ -408,7 +408,7 @@ namespace tread
     bool                    has_fitted_lateral_radius() const;
 
   private:
-    TrackBeyondParameters track_beyond_alike() const; ///< but for the place of the first support
+    TrackBeamParameters track_beam_alike() const; ///< but for the place of the first support
     /// Read a file and settings, unchecked.
     void take(const std::string &file, const std::vector<std::string> &settings);
     /// @throws InputError unless it lasts as long as the run, in positions that are allowed

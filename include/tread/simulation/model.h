@@ -20,6 +20,7 @@
 namespace tread
 {
   class RailBase;
+  class RailOnBeam;
   class Supports;
 
   /// Where the cells of a model are fine: the number of the window, and what touched in its middle when it
@@ -103,8 +104,9 @@ namespace tread
     std::vector<RollingWheel>   wheels; ///< of fixed number
     ExplicitDynamics            dynamics;
     Contact                     contact;
-    std::unique_ptr<Supports>   supports;       ///< none: the rail's bottom stays in shape
-    std::unique_ptr<RailBase>   rail_base;      ///< none: without supports that is held
+    std::unique_ptr<Supports>   supports;               ///< none: the rail's bottom stays in shape
+    std::unique_ptr<RailBase>   rail_base;              ///< none: without supports or a beam that is held
+    RailOnBeam                 *rail_on_beam = nullptr; ///< null: it is on none
     WheelsetAtSolution          wheelset;       ///< with which that of the finite elements is compared
     const std::optional<double> between_pieces; ///< of a rail of slices, y (m)
 
@@ -112,9 +114,7 @@ namespace tread
     /// @throws InputError if mass was added to more than the few finest cells. Collective.
     void check_added_mass() const;
     void add_supports();
-    /// @throws InputError if it weighs less than the cells. Collective.
-    BeamUnderRail beam_without_cells() const;
-    void          add_friction_that_varies();
+    void add_friction_that_varies();
   };
 } // namespace tread
 

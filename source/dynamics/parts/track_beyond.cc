@@ -54,10 +54,10 @@ namespace tread
   } // namespace
 
 
-  RailOnTrackBeyond::RailOnTrackBeyond(const PartOf                               &part_of,
-                                       const unsigned int                          rail_body,
-                                       const ElasticMaterial                      &rail,
-                                       const std::array<TrackBeyondParameters, 2> &beyond)
+  RailOnTrackBeyond::RailOnTrackBeyond(const PartOf                             &part_of,
+                                       const unsigned int                        rail_body,
+                                       const ElasticMaterial                    &rail,
+                                       const std::array<TrackBeamParameters, 2> &beyond)
     : of(part_of)
     , body(rail_body)
   {
@@ -114,7 +114,7 @@ namespace tread
                                   (2. * (1. + rail.poisson_ratio)) * properties.area;
         section.mass           = rail.density * properties.area;
         section.rotary_inertia = rail.density * properties.about_y;
-        end.track = std::make_unique<TrackBeyond>(section, rail.young_modulus * properties.area, beyond[e]);
+        end.track = std::make_unique<TrackBeam>(section, rail.young_modulus * properties.area, beyond[e]);
         // Clapeyron's equation of three moments for endless equal spans.
         end.yaw_stiffness = 2. * std::sqrt(3.) * rail.young_modulus * properties.about_z / beyond[e].spacing;
       }
@@ -166,9 +166,7 @@ namespace tread
   }
 
 
-  void RailOnTrackBeyond::give(const End                    &end,
-                               const TrackBeyond::AtSection &outwards,
-                               NodalField                   &force) const
+  void RailOnTrackBeyond::give(const End &end, const TrackBeam::AtSection &outwards, NodalField &force) const
   {
     const double yaw = -end.yaw_stiffness * end.yaw;
     for (const Node &node : end.nodes)
@@ -203,8 +201,8 @@ namespace tread
     for (const End &end : ends)
       {
         // Forces are in proportion to the masses of the nodes.
-        const TrackBeyond::AtSection stiffness = end.track->stiffness_of_section();
-        const double                 rate      = (stiffness.along + stiffness.up) / end.mass +
+        const TrackBeam::AtSection stiffness = end.track->stiffness_of_section();
+        const double               rate      = (stiffness.along + stiffness.up) / end.mass +
                             stiffness.slope * end.pitch_by_moment + end.yaw_stiffness * end.yaw_by_moment;
         for (const Node &node : end.nodes)
           rows[node.number][0] += of.quanta.stiffness.round(rate * node.mass);

@@ -14,9 +14,9 @@ namespace tread
        "the rail's bottom stays in shape and moves up, down and across on springs and dampers under a mass, "
        "all of which run along with the wheel; for one wheel, also in a wheelset's position."},
       {Foundation::beam, "beam",
-       "the rail's bottom stays straight, moves up and down and pitches as the middle of a beam on pads, "
-       "sleepers and ballast that goes on beyond both of its ends; for one wheel between two supports, also "
-       "in a wheelset's position."}};
+       "the rail's bottom is bonded to a beam of the whole rail's stiffness on pads, sleepers and ballast, "
+       "which goes on "
+       "beyond both of its ends; for one wheel, also in a wheelset's position."}};
     return list;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/input_error.h>
 #include <tread/dynamics/parts/rail_base.h>
+#include <tread/dynamics/parts/rail_on_beam.h>
 #include <tread/scene/parts.h>
 #include <tread/simulation/recorders/history.h>
 #include <tread/track/supports.h>
@@ -152,6 +153,12 @@ namespace tread
     row.supports = support_records();
     if (model.rail_base)
       row.rail_base = model.rail_base->displacement();
+    if (model.rail_on_beam)
+      {
+        const TrackBeam::AtSection under = model.rail_on_beam->displacement_at(row.position);
+        row.rail_base                    = Vector3{0., 0., under.up, 0.};
+        row.rail_base_slope              = under.slope;
+      }
     if (probes)
       row.cells = probes->record(model.dynamics);
     return row;

@@ -28,7 +28,7 @@ KNOWN: list[tuple[str, str, str]] = [
     ("summary.json", "largest_pad_force_x_m", "where the run ends: as good as 0"),
     ("history.csv", "(own|other)_wheel_roll_rad", "moments bend the axle: compared by tests/track/flexible_axle.cc"),
     ("history.csv", "inner_normal_force_N|wheelset_height_m", "compared by tests/scenes/slices.py and tests/output/columns.cc"),
-    ("history.csv", "rail_base_.*", "compared by tests/track/rail_base.cc, tests/track/base_on_beam.cc and tests/output/columns.cc"),
+    ("history.csv", "rail_base_.*", "compared by tests/track/rail_base.cc, tests/track/rail_on_beam.cc and tests/output/columns.cc"),
     ("history.csv", "support_0_rail_at_next_mid_span_m|support_0_rail_m|support_0_.*seat_pressure_Pa", "within bounds here; statics: tests/track/statics.cc"),
     ("history.csv", "(other_(longitudinal|lateral|normal)_force_N|guidance_force_N|roll_rad|yaw_rad|lateral_shift_m|(own|other)_wheel_yaw_rad|axle_twist_rad)",
      "changes by less in a row than the comparison allows: one that lies a row late is not noticed"),

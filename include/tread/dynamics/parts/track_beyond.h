@@ -4,7 +4,7 @@
 
 #include <tread/dynamics/part.h>
 #include <tread/material/elastic.h>
-#include <tread/track/track_beyond.h>
+#include <tread/track/track_beam.h>
 
 #include <array>
 #include <memory>
@@ -17,7 +17,7 @@ namespace tread
     double along, up, slope, yaw; ///< velocities of the section, m/s and rad/s
   };
 
-  /// The track beyond both ends of a rail of cells (@see TrackBeyond). A section of cells that ends there
+  /// The track beyond both ends of a rail of cells (@see TrackBeam). A section of cells that ends there
   /// moves as its mean does: displacement and rotation weighted with the nodes' masses (those of Cowper 1966
   /// for a beam), by which it passes its forces on; it may warp and bulge. It is kept from turning about the
   /// vertical by the bending stiffness of a continuous beam that rests on the supports across; across and
@@ -27,10 +27,10 @@ namespace tread
   public:
     /// @param beyond behind the end of lowest and of highest x. Collective.
     /// @throws InputError if cells of an end are refined
-    RailOnTrackBeyond(const PartOf                               &part_of,
-                      const unsigned int                          rail_body,
-                      const ElasticMaterial                      &rail,
-                      const std::array<TrackBeyondParameters, 2> &beyond);
+    RailOnTrackBeyond(const PartOf                             &part_of,
+                      const unsigned int                        rail_body,
+                      const ElasticMaterial                    &rail,
+                      const std::array<TrackBeamParameters, 2> &beyond);
 
     std::vector<unsigned int> nodes_of_every_step() const override;
     void                      add_forces(NodalField &force) override;
@@ -63,13 +63,13 @@ namespace tread
     };
     struct End
     {
-      double                       side;                                     ///< 1: at highest x, -1
-      std::vector<Node>            nodes;                                    ///< this rank's own
-      double                       mass            = 0.;                     ///< of the section, kg
-      double                       pitch_by_moment = 0., yaw_by_moment = 0.; ///< 1/(kg m^2)
-      double                       yaw_stiffness = 0.;                       ///< N m
-      std::unique_ptr<TrackBeyond> track;
-      double                       yaw = 0.; ///< rad
+      double                     side;                                     ///< 1: at highest x, -1
+      std::vector<Node>          nodes;                                    ///< this rank's own
+      double                     mass            = 0.;                     ///< of the section, kg
+      double                     pitch_by_moment = 0., yaw_by_moment = 0.; ///< 1/(kg m^2)
+      double                     yaw_stiffness = 0.;                       ///< N m
+      std::unique_ptr<TrackBeam> track;
+      double                     yaw = 0.; ///< rad
     };
     /// This rank's share of the section's mean of a nodal vector. @param of_node its value on a node
     template <typename OfNode>
@@ -77,11 +77,11 @@ namespace tread
     /// The same of all ranks for both ends. Collective.
     template <typename OfNode>
     std::array<SumsOfTrackBeyond, 2> means(const Quantum quantum, const OfNode &of_node) const;
-    TrackBeyond::AtSection           outwards(const End &end, const SumsOfTrackBeyond &of_section) const
+    TrackBeam::AtSection             outwards(const End &end, const SumsOfTrackBeyond &of_section) const
     {
       return {end.side * of_section.along, of_section.up, end.side * of_section.slope};
     }
-    void give(const End &end, const TrackBeyond::AtSection &force_outwards, NodalField &force) const;
+    void give(const End &end, const TrackBeam::AtSection &force_outwards, NodalField &force) const;
 
     const PartOf       of;
     const unsigned int body;

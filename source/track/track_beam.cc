@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/track/rail_ends.h>
-#include <tread/track/track_beyond.h>
+#include <tread/track/track_beam.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/sparsity_pattern.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace tread
@@ -22,6 +20,10 @@ namespace tread
     /// m: half of its mass lies beside the section instead of in it, which reflects 1e-5 of a wave's energy
     /// along the rail at 2 kHz.
     constexpr double first_element = 0.0125;
+    /// m: where cells stand on the beam. What an element sinks more under a force in its middle than the line
+    /// between its nodes, the force times a quarter of its length over the shear stiffness, is not in it: 0.6
+    /// um under 60 kN, a tenth of it under the piece that spreads the force.
+    constexpr double loaded_element = 0.01;
 
     SleeperModes rigid_sleeper(const reference::SupportLayers &layers)
     {
@@ -35,19 +37,22 @@ namespace tread
   } // namespace
 
 
-  TrackBeyond::TrackBeyond(const reference::BeamSection &beam,
-                           const double                  axial_stiffness,
-                           const TrackBeyondParameters  &parameters)
+  TrackBeam::TrackBeam(const reference::BeamSection &beam,
+                       const double                  axial_stiffness,
+                       const TrackBeamParameters    &parameters)
     : parameters(parameters)
   {
     if (parameters.sleeper.size() == 0)
       this->parameters.sleeper = rigid_sleeper(parameters.layers);
     const SleeperModes &sleeper = this->parameters.sleeper;
+    const LoadedPart   &loaded  = this->parameters.loaded;
     // Half a span is left behind the last support.
     std::vector<double> places{0.};
     const auto          divide = [&](const double to) {
-      const double       from = places.back();
-      const unsigned int n    = std::max(1., std::ceil((to - from) / longest_element - 1e-9));
+      const double       from    = places.back();
+      const bool         carries = loaded.is_there() && to > loaded.from && from < loaded.to;
+      const double       longest = carries ? loaded_element : longest_element;
+      const unsigned int n       = std::max(1., std::ceil((to - from) / longest - 1e-9));
       for (unsigned int i = 1; i <= n; ++i)
         places.push_back(i < n ? from + (to - from) * i / n : to);
     };
@@ -61,9 +66,13 @@ namespace tread
     n_nodes                    = places.size() - 1;
     const std::size_t   n      = 3 * n_nodes + parameters.n_spans * sleeper.size();
     const double        length = places.back();
-    const AbsorbingEnds layer  = {-length, length, 0.5 * length, parameters.shear_speed};
+    const AbsorbingEnds layer =
+      loaded.is_there()
+        ? AbsorbingEnds{0., length, 0.5 * std::min(loaded.from, length - loaded.to), parameters.shear_speed}
+        : AbsorbingEnds{-length, length, 0.5 * length, parameters.shear_speed};
+    distances.assign(places.begin() + 1, places.end());
 
-    for (auto *values : {&mass, &weight, &rate, &displacement, &velocity, &force, &damping})
+    for (auto *values : {&load, &mass, &weight, &rate, &displacement, &velocity, &force, &damping})
       values->assign(n, 0.);
     for (auto &of_elements : strains)
       of_elements.assign(n_nodes + 1, 0.);
@@ -72,10 +81,13 @@ namespace tread
         const double h = places[i + 1] - places[i];
         elements.push_back({h, axial_stiffness / h, beam.bending_stiffness / h,
                             1. / (1. / beam.shear_stiffness + h * h / (12. * beam.bending_stiffness))});
+        const double carrying = std::min(places[i + 1], loaded.to) - std::max(places[i], loaded.from);
+        const double of_cells =
+          loaded.is_there() && carrying > 0. ? loaded.cells * carrying / (loaded.to - loaded.from) : 0.;
         for (const std::size_t node : {i == 0 ? i : i - 1, i}) // the section has none
           {
-            mass[unknown(along, node)] += 0.5 * h * beam.mass;
-            mass[unknown(up, node)] += 0.5 * h * beam.mass;
+            mass[unknown(along, node)] += 0.5 * (h * beam.mass - of_cells);
+            mass[unknown(up, node)] += 0.5 * (h * beam.mass - of_cells);
             mass[unknown(slope, node)] += 0.5 * h * beam.rotary_inertia;
           }
       }
@@ -93,12 +105,18 @@ namespace tread
           weight[k]           = -parameters.gravity * sleeper.weighing[j];
           rate[k]             = layer.rate(places[node_of_support[s] + 1]);
         }
+    if (loaded.is_there())
+      {
+        first_loaded =
+          std::upper_bound(distances.begin(), distances.end(), loaded.from) - distances.begin() - 1;
+        last_loaded = std::lower_bound(distances.begin(), distances.end(), loaded.to) - distances.begin();
+      }
     find_shapes();
     set_at_rest(AtSection());
   }
 
 
-  double TrackBeyond::under_pad(const std::vector<double> &values, const std::size_t support) const
+  double TrackBeam::under_pad(const std::vector<double> &values, const std::size_t support) const
   {
     double sum = 0.;
     for (std::size_t j = 0; j < parameters.sleeper.size(); ++j)
@@ -107,9 +125,9 @@ namespace tread
   }
 
 
-  TrackBeyond::AtSection TrackBeyond::spring_forces(const AtSection           &at,
-                                                    const std::vector<double> &u,
-                                                    std::vector<double>       &f) const
+  TrackBeam::AtSection TrackBeam::spring_forces(const AtSection           &at,
+                                                const std::vector<double> &u,
+                                                std::vector<double>       &f) const
   {
     // Tension, shear force and bending moment of the elements.
     for (std::size_t e = 0; e < n_nodes; ++e)
@@ -150,7 +168,7 @@ namespace tread
   }
 
 
-  void TrackBeyond::find_damping()
+  void TrackBeam::find_damping()
   {
     for (std::size_t k = 0; k < velocity.size(); ++k)
       damping[k] = -rate[k] * mass[k] * velocity[k];
@@ -175,7 +193,7 @@ namespace tread
   }
 
 
-  void TrackBeyond::find_shapes()
+  void TrackBeam::find_shapes()
   {
     // The stiffness matrix by its columns, which unit displacements give. Nodes act on their neighbours and
     // on the sleepers under them alone, so that the columns of every third node can be had at once.
@@ -214,8 +232,8 @@ namespace tread
                 entries.push_back({i, static_cast<std::size_t>(column_of[node]), -f[i]});
           std::fill(unit.begin(), unit.end(), 0.);
         }
-    const std::array held{unknown(along, n_nodes - 1), unknown(slope, n_nodes - 1)}; // these stay 0
-    const auto       is_held = [&](const std::size_t k) {
+    held               = {unknown(along, n_nodes - 1), unknown(slope, n_nodes - 1)};
+    const auto is_held = [&](const std::size_t k) {
       return k == held[0] || k == held[1];
     };
     dealii::DynamicSparsityPattern places(n);
@@ -231,25 +249,104 @@ namespace tread
         sparse.add(entry.row, entry.column, entry.value);
     for (const std::size_t k : held)
       sparse.set(k, k, 1.);
-    dealii::SparseDirectUMFPACK solver;
-    solver.initialize(sparse);
-
-    const auto at_rest = [&](const AtSection &at, const std::vector<double> *loads) {
-      dealii::Vector<double> solution(n);
+    solver = std::make_unique<dealii::SparseDirectUMFPACK>();
+    solver->initialize(sparse);
+    const auto by_section = [&](const AtSection &at) {
       spring_forces(at, unit, f);
-      for (std::size_t i = 0; i < n; ++i)
-        solution(i) = f[i] + (loads ? (*loads)[i] : 0.);
-      solver.solve(solution);
-      return std::vector<double>(solution.begin(), solution.end());
+      return at_rest(f);
     };
-    shapes[along] = at_rest({1., 0., 0.}, nullptr);
-    shapes[up]    = at_rest({0., 1., 0.}, nullptr);
-    shapes[slope] = at_rest({0., 0., 1.}, nullptr);
-    sagged        = at_rest({0., 0., 0.}, &weight);
+    shapes[along] = by_section({1., 0., 0.});
+    shapes[up]    = by_section({0., 1., 0.});
+    shapes[slope] = by_section({0., 0., 1.});
+    sagged        = at_rest(weight);
   }
 
 
-  void TrackBeyond::set_at_rest(const AtSection &at)
+  std::vector<double> TrackBeam::at_rest(const std::vector<double> &forces) const
+  {
+    dealii::Vector<double> solution(forces.begin(), forces.end());
+    for (const std::size_t k : held)
+      solution(k) = 0.;
+    solver->solve(solution);
+    return {solution.begin(), solution.end()};
+  }
+
+
+  TrackBeam::Place TrackBeam::place(const double from_section) const
+  {
+    const auto        after = std::upper_bound(distances.begin(), distances.end(), from_section);
+    const std::size_t node =
+      std::clamp<std::size_t>(after - distances.begin() - 1, first_loaded, last_loaded - 1);
+    const Element &element = elements[node + 1];
+    const double h = element.length, bending = element.bending * h, s = (from_section - distances[node]) / h;
+    // 12 E I over kappa G A h^2, where the element has a shear stiffness that makes up for its one point.
+    const double phi = 12. * bending / (h * h) / element.shear - 1., over = 1. / (1. + phi);
+    const double dip = over * (s * s - s);
+    return {node,
+            {1. + over * (s * s * (2. * s - 3.) - phi * s),
+             h * over * s * (s * s - (2. + 0.5 * phi) * s + 1. + 0.5 * phi),
+             over * (s * s * (3. - 2. * s) + phi * s),
+             h * over * s * (s * s - (1. - 0.5 * phi) * s - 0.5 * phi)},
+            {6. * dip / h, 1. + 3. * dip - s, -6. * dip / h, 3. * dip + s}};
+  }
+
+
+  TrackBeam::AtSection TrackBeam::value_at(const Place &at, const std::vector<double> &values) const
+  {
+    AtSection value;
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        const double of_node = values[unknown(k % 2 == 0 ? up : slope, at.node + k / 2)];
+        value.up += at.up[k] * of_node;
+        value.slope += at.slope[k] * of_node;
+      }
+    return value;
+  }
+
+
+  void TrackBeam::set_loads(const double *of_nodes)
+  {
+    for (std::size_t i = first_loaded; i <= last_loaded; ++i)
+      {
+        load[unknown(up, i)]    = *of_nodes++;
+        load[unknown(slope, i)] = *of_nodes++;
+      }
+  }
+
+
+  std::vector<double> TrackBeam::displacements_of_loaded() const
+  {
+    std::vector<double> values;
+    for (std::size_t i = first_loaded; i <= last_loaded; ++i)
+      {
+        values.push_back(displacement[unknown(up, i)]);
+        values.push_back(displacement[unknown(slope, i)]);
+      }
+    return values;
+  }
+
+
+  void TrackBeam::take_loads_at_rest()
+  {
+    const std::vector<double> present = velocity;
+    set_at_rest(section);
+    velocity                       = present;
+    const std::vector<double> more = at_rest(load);
+    for (std::size_t k = 0; k < displacement.size(); ++k)
+      displacement[k] += more[k];
+  }
+
+
+  void TrackBeam::follow_loads(const double *rates)
+  {
+    const std::vector<double> present = load;
+    set_loads(rates);
+    velocity = at_rest(load);
+    load     = present;
+  }
+
+
+  void TrackBeam::set_at_rest(const AtSection &at)
   {
     section = at;
     for (std::size_t k = 0; k < displacement.size(); ++k)
@@ -259,33 +356,33 @@ namespace tread
   }
 
 
-  void TrackBeyond::follow_slowly(const AtSection &at)
+  void TrackBeam::follow_slowly(const AtSection &at)
   {
     for (std::size_t k = 0; k < velocity.size(); ++k)
       velocity[k] = at.along * shapes[along][k] + at.up * shapes[up][k] + at.slope * shapes[slope][k];
   }
 
 
-  void TrackBeyond::find_forces()
+  void TrackBeam::find_forces()
   {
     on_section = spring_forces(section, displacement, force);
     find_damping();
   }
 
 
-  TrackBeyond::AtSection TrackBeyond::present_force_on_section() const
+  TrackBeam::AtSection TrackBeam::present_force_on_section() const
   {
     std::vector<double> unused(force.size());
     return spring_forces(section, displacement, unused);
   }
 
 
-  void TrackBeyond::advance(const AtSection &velocity_of_section, const double time_step)
+  void TrackBeam::advance(const AtSection &velocity_of_section, const double time_step)
   {
     for (std::size_t k = 0; k < velocity.size(); ++k)
       {
         const double before = velocity[k];
-        velocity[k] += time_step / mass[k] * (force[k] + weight[k] + damping[k]);
+        velocity[k] += time_step / mass[k] * (force[k] + weight[k] + damping[k] + load[k]);
         // In central differences a force works in a step with the mean of the velocities around it.
         damper_work -= 0.5 * time_step * damping[k] * (before + velocity[k]);
       }
@@ -298,7 +395,7 @@ namespace tread
   }
 
 
-  double TrackBeyond::stiffness_over_mass() const
+  double TrackBeam::stiffness_over_mass() const
   {
     // Sums of the rows, each element by itself.
     std::vector<double> rows(mass.size(), 0.);
@@ -333,7 +430,7 @@ namespace tread
   }
 
 
-  double TrackBeyond::damping_over_mass() const
+  double TrackBeam::damping_over_mass() const
   {
     const reference::SupportLayers &layers  = parameters.layers;
     const std::size_t               n       = parameters.sleeper.size();
@@ -358,7 +455,7 @@ namespace tread
   }
 
 
-  TrackBeyond::AtSection TrackBeyond::stiffness_of_section() const
+  TrackBeam::AtSection TrackBeam::stiffness_of_section() const
   {
     const Element &first = elements[0];
     const double   shear = first.shear / first.length;
@@ -367,7 +464,7 @@ namespace tread
   }
 
 
-  double TrackBeyond::spring_energy() const
+  double TrackBeam::spring_energy() const
   {
     std::vector<double> f(force.size());
     spring_forces(section, displacement, f);
@@ -397,7 +494,7 @@ namespace tread
   }
 
 
-  double TrackBeyond::kinetic_energy(const double time_step) const
+  double TrackBeam::kinetic_energy(const double time_step) const
   {
     // With the product of the velocities half a step before and after now, of the springs' forces alone.
     std::vector<double> f(force.size());
@@ -409,7 +506,7 @@ namespace tread
   }
 
 
-  double TrackBeyond::weight_potential(const double time_step) const
+  double TrackBeam::weight_potential(const double time_step) const
   {
     double potential = 0.;
     for (std::size_t k = 0; k < weight.size(); ++k)
@@ -418,7 +515,7 @@ namespace tread
   }
 
 
-  void TrackBeyond::serialize(Archive &archive)
+  void TrackBeam::serialize(Archive &archive)
   {
     archive.same(section, damper_work);
     archive.same_number(displacement, velocity);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_track_track_beyond_h
-#define tread_track_track_beyond_h
+#ifndef tread_track_track_beam_h
+#define tread_track_track_beam_h
 
 #include <tread/base/archive.h>
 #include <tread/reference/supported_beam.h>
 
+#include <deal.II/lac/sparse_direct.h>
+
+#include <array>
+#include <memory>
 #include <vector>
 
 namespace tread
@@ -23,7 +27,19 @@ namespace tread
     }
   };
 
-  struct TrackBeyondParameters
+  /// A part of the beam that carries cells, from the section on: nothing if it has no length.
+  struct LoadedPart
+  {
+    double from = 0., to = 0.; ///< m
+    double cells = 0.;         ///< their mass, which the beam has less there, kg
+
+    bool is_there() const
+    {
+      return to > from;
+    }
+  };
+
+  struct TrackBeamParameters
   {
     unsigned int             n_spans         = 20;
     double                   spacing         = 0.6;  ///< of the supports, m
@@ -33,19 +49,30 @@ namespace tread
     double                   gravity         = 0.;   ///< m/s^2
     reference::SupportLayers layers;                 ///< of each support
     SleeperModes             sleeper;                ///< none given: that of the layers, which is rigid
+    LoadedPart               loaded; ///< with one the beam absorbs what arrives at its beginning as well
   };
 
-  /// The track beyond one end of a rail of cells: a Timoshenko beam and bar on supports (springs, dampers and
-  /// sleepers), whose first node is the section where the cells end. In the half that is farther away
-  /// damping grows towards a plane of symmetry, as at absorbing ends. Coordinates point outwards from the
-  /// cells: along the rail, upwards, and the slope of a cross-section. Linear: supports pull and have no
-  /// gaps.
+  /// A beam under a piece of rail.
+  struct BeamUnderRail
+  {
+    reference::BeamSection section;              ///< of the whole rail
+    double                 axial_stiffness = 0.; ///< E A, N
+    double                 begin           = 0.; ///< x of the beam's held section, m
+    TrackBeamParameters    track;                ///< with the part that carries cells
+  };
+
+  /// A rail as a Timoshenko beam and bar on supports (springs, dampers and sleepers). It stands for the track
+  /// beyond one end of a rail of cells, whose last section is its first node; or for all of the rail under a
+  /// piece of cells that it carries, with a first section that is held far away. In the half that is farther
+  /// away damping grows towards a plane of symmetry, as at absorbing ends. Coordinates point outwards from
+  /// the section: along the rail, upwards, and the slope of a cross-section. Linear: supports pull and have
+  /// no gaps.
   ///
   /// Two-node elements that are exact in statics (one-point integration with the residual bending flexibility
   /// of MacNeal 1978), lumped inertia, and central differences in step with the cells: forces at the
   /// displacements of step n, dampers with the velocities of half a step before. The section itself has no
   /// mass here: half an element's is that of its other node.
-  class TrackBeyond
+  class TrackBeam
   {
   public:
     /// Displacement (m, m, rad) or velocity of the section, or force (N, N, N m) on it.
@@ -55,14 +82,51 @@ namespace tread
     };
 
     /// @param axial_stiffness E A, N
-    TrackBeyond(const reference::BeamSection &section,
-                const double                  axial_stiffness,
-                const TrackBeyondParameters  &parameters);
+    TrackBeam(const reference::BeamSection &section,
+              const double                  axial_stiffness,
+              const TrackBeamParameters    &parameters);
 
     /// Everything is at rest with the section displaced so.
     void set_at_rest(const AtSection &section);
     /// Everything follows the section slowly, as it would at rest.
     void follow_slowly(const AtSection &velocity_of_section);
+
+    // The part that carries cells.
+
+    std::size_t n_loaded() const ///< its nodes
+    {
+      return last_loaded - first_loaded + 1;
+    }
+    std::size_t first_loaded_node() const
+    {
+      return first_loaded;
+    }
+    /// Up (m) and slope (rad) of its nodes, one node after the other.
+    std::vector<double> displacements_of_loaded() const;
+    /// How a place of it follows two of its nodes, the first of which is this one: deflection and slope of
+    /// the cross-section by the deflection and the slope of one node after the other, as the static equations
+    /// of a Timoshenko beam without loads between them have it (Friedman & Kosmatka 1993).
+    struct Place
+    {
+      std::size_t           node;
+      std::array<double, 4> up, slope;
+    };
+    /// @param from_section m
+    Place place(const double from_section) const;
+    /// Forces (N) and moments (N m) of the cells on its nodes, one node after the other.
+    void set_loads(const double *of_nodes);
+    /// Displace the beam as these loads do at rest, with the section where it is; velocities stay. Or set its
+    /// velocities to those with which it follows loads that change by so much in a second.
+    void      take_loads_at_rest();
+    void      follow_loads(const double *rates_of_nodes);
+    AtSection displacement_at(const Place &place) const
+    {
+      return value_at(place, displacement);
+    }
+    AtSection velocity_at(const Place &place) const
+    {
+      return value_at(place, velocity);
+    }
 
     /// Find the forces at the present state.
     void find_forces();
@@ -112,19 +176,28 @@ namespace tread
                             std::vector<double>       &force) const;
     void      find_damping(); ///< forces of dampers at the present velocities
     void      find_shapes();
+    AtSection value_at(const Place &place, const std::vector<double> &values) const;
+    /// Displacements that these forces on the unknowns cause at rest.
+    std::vector<double> at_rest(const std::vector<double> &forces) const;
 
     struct Element
     {
       double length, axial, bending, shear; ///< m; E A/h, E I/h, N/m and N m; corrected kappa G A, N
     };
-    TrackBeyondParameters    parameters;
+    TrackBeamParameters      parameters;
     std::vector<Element>     elements; ///< of node i - 1 (or the section) and node i
     std::size_t              n_nodes = 0;
     std::vector<std::size_t> node_of_support;
     std::vector<double>      mass, weight, rate; ///< kg, kg m^2; N; 1/s: by unknown
 
+    std::vector<double> distances;                         ///< of the nodes from the section, m
+    std::size_t         first_loaded = 0, last_loaded = 0; ///< nodes
+    std::vector<double> load;                              ///< by unknown
+
     // At rest: with a unit displacement of the section each, and with the weight alone.
-    std::vector<double> shapes[3], sagged;
+    std::unique_ptr<dealii::SparseDirectUMFPACK> solver;
+    std::array<std::size_t, 2>                   held; ///< unknowns that stay 0 at the far end
+    std::vector<double>                          shapes[3], sagged;
 
     AtSection                   section, on_section;
     std::vector<double>         displacement, velocity; ///< by unknown
