@@ -51,7 +51,7 @@ def main() -> None:
         for axis, (velocity, foundation, place, total, nose, _, of_model, model_force) in zip(axes, rows):
             axis.plot(place, 1e-3 * total, color=BLUE, label="finite elements")
             axis.plot(place, 1e-3 * nose, color=ORANGE, label="on the nose")
-            axis.plot(1e3 * of_model, 1e-3 * model_force, "--", color=RED, label="mass on the half-space's force at rest")
+            axis.plot(1e3 * of_model, 1e-3 * model_force, "--", color=RED, label="mass on the half-space's force at rest, on a co-running track")
             axis.set(ylabel="force, kN", title=name(velocity, foundation))
         axes[0].legend()
         for (velocity, foundation, place, _, _, height, _, _), colour in zip(rows, (BLUE, GREEN, ORANGE, RED)):

@@ -63,6 +63,8 @@ namespace tread
 
   void Scene::take_support_springs()
   {
+    require(!track.is_beam(),
+            "'Track/Support file' must be empty with 'Track/Foundation' beam, whose supports are all alike");
     require(track.has_supports(),
             "'Track/Support file' needs supports: 'Track/Foundation' must be one-layer or two-layer");
     using Springs = TrackParameters::Springs;
@@ -214,8 +216,8 @@ namespace tread
   void Scene::check_beam() const
   {
     require(rail.shape != RailShape::full_section && !rail.is_meshed(),
-            "'Track/Foundation' beam needs a piece of a rail that is stiffer than the beam under it: "
-            "'Rail/Shape' must be head, block or slices");
+            "'Track/Foundation' beam has the whole rail's stiffness, to which the meshed piece is to add "
+            "little: 'Rail/Shape' must be head, block or slices");
     track.check();
   }
 

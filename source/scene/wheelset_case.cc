@@ -227,7 +227,7 @@ namespace tread
     };
     require(guidance.yaw_inertia > 0. || !wheelset.both_wheels,
             "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
-    without(!track.has_supports(), "'Track/Foundation' must be rigid or co-running");
+    without(!track.has_supports(), "'Track/Foundation' must be rigid, co-running or beam");
     check_track();
     without(!wheel.is_full(), "'Wheel/Shape' must be sector");
     without(!peak_stress.is_wanted(), "'Peak stress/Region' must be none");

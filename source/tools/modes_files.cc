@@ -548,6 +548,10 @@ namespace tread
     if (!(request.up_to >= lowest_allowed && request.up_to <= highest_allowed))
       throw InputError(format("--up-to %g: the highest frequency must lie between %g and %g Hz",
                               request.up_to, lowest_allowed, highest_allowed));
+    if (scene.track.is_beam())
+      throw InputError(
+        "tread modes: 'Track/Foundation' beam has no modes of its own, as waves leave along the "
+        "beam; with one-layer or two-layer a whole rail of cells has");
     if (scene.track_beyond())
       throw InputError(
         "tread modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "

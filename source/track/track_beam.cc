@@ -276,7 +276,7 @@ namespace tread
   {
     const auto        after = std::upper_bound(distances.begin(), distances.end(), from_section);
     const std::size_t node =
-      std::clamp<std::size_t>(after - distances.begin() - 1, first_loaded, last_loaded - 1);
+      std::clamp<std::ptrdiff_t>(after - distances.begin() - 1, first_loaded, last_loaded - 1);
     const Element &element = elements[node + 1];
     const double h = element.length, bending = element.bending * h, s = (from_section - distances[node]) / h;
     // 12 E I over kappa G A h^2, where the element has a shear stiffness that makes up for its one point.

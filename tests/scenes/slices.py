@@ -87,18 +87,15 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("height of the wheelset at the end, mm", 1e3 * history["wheelset_height_m"][-1], 1e3 * way["wheelset_height_m"], 0.01)
     check.energy("over the nose: ", way, 0.01)
 
-    # On a beam that hardly moves the force is that on a base that hardly moves; the one of the scene gives way, pitches as the load passes, and nothing is lost.
+    # On sleepers it gives way and turns as the load passes, and nothing is lost.
     beam = [*rolled, "Track/Foundation=beam", "Track/Support 0 (mm)=300"]
-    firm = run(program, PASSAGE, path("firm"), [*beam, "Track/Beam mass (kg per m)=100000", "Track/Beam bending stiffness (MN m2)=10000", "Track/Beam shear stiffness (MN)=1000000"])
-    heavy = run(program, PASSAGE, path("heavy"), [*rolled, "Track/Co-running mass (kg)=100000"])
-    check.relative("on a heavy beam as on a heavy base: largest force, N", max(table(path("firm"), "history.csv")["normal_force_N"]),
-                   max(table(path("heavy"), "history.csv")["normal_force_N"]), 1e-3)
-    check.that("of what the beam has nothing is unused, across nothing moves", not any("Beam" in line or "Sleeper" in line for line in firm["unused_parameters"])
-               and "rail_base_lateral_m" not in table(path("firm"), "history.csv"))
     bits = [*beam, "Scene/Reproducible=true"]
     soft = run(program, PASSAGE, path("beam"), bits, 2)
     check.energy("over the nose, on a beam: ", soft, 0.01)
     moved = table(path("beam"), "history.csv")
+    check.that("of the mass of a co-running track it is said that it makes blows too large, of a beam nothing", ["its mass stands for the track" in " ".join(of["warnings"]) for of in (way, soft)] == [True, False])
+    check.that("of what the beam has nothing is unused, across nothing moves", not any("Beam" in line or "Sleeper" in line for line in soft["unused_parameters"])
+               and "rail_base_lateral_m" not in moved)
     check.that("the base moves and turns with the load", max(abs(np.array(moved["rail_base_vertical_m"]))) > 1e-6 and max(abs(np.array(moved["rail_base_slope_rad"]))) > 1e-5)
     run_stopped(program, PASSAGE, path("stopped"), bits, len(moved["position_m"]) // 2)
     run(program, PASSAGE, path("stopped"), bits, 1, more=["--resume"])
@@ -138,6 +135,7 @@ with tempfile.TemporaryDirectory() as folder:
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
     refused("a beam lighter than its cells", PASSAGE, [*beam, "Track/Beam mass (kg per m)=10"], ["'Track/Beam mass (kg per m)' 10", "are needed"])
+    refused("a beam with a file of supports", PASSAGE, [*beam, "Track/Support file=some.csv"], ["'Track/Support file' must be empty", "all alike"])
     refused("a beam under a foot", "smooth-rolling.prm", ["Track/Foundation=beam", "Rail/Shape=full section", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], ["'Track/Foundation' beam", "'Rail/Shape'"])
     refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])
     check.refused("points over the shift", program, PASSAGE, path("refused"), [], ["--shift-to", "'Rail/Shape' slices"], more=["--shift-to", "5"], command="contact-points")

@@ -322,7 +322,7 @@ namespace tread
     /// discrete supports.
     bool has_impacts() const
     {
-      return !rolls_smoothly() || track.has_supports();
+      return !rolls_smoothly() || track.has_supports() || track.is_beam();
     }
     /// Height above the rail's profile, in the rail's own axes: measured head and defect. Null: none. @see
     /// RailTop

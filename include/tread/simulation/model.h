@@ -105,7 +105,7 @@ namespace tread
     ExplicitDynamics            dynamics;
     Contact                     contact;
     std::unique_ptr<Supports>   supports;               ///< none: the rail's bottom stays in shape
-    std::unique_ptr<RailBase>   rail_base;              ///< none: without supports or a beam that is held
+    std::unique_ptr<RailBase>   rail_base;              ///< of one that runs along with the wheel
     RailOnBeam                 *rail_on_beam = nullptr; ///< null: it is on none
     WheelsetAtSolution          wheelset;       ///< with which that of the finite elements is compared
     const std::optional<double> between_pieces; ///< of a rail of slices, y (m)

@@ -45,10 +45,11 @@ namespace tread
     section.choose("Foundation", foundation, "",
                    "With layers the rail's ends are planes of symmetry, and supports move vertically only.");
     section.choose("Sleepers", sleepers, "Of two layers.");
-    section.add("Sleeper spacing (m)", sleeper_spacing,
-                "Distance between the middles of neighbouring supports. The rail must end between half a pad "
-                "and half a spacing beyond its last supports.",
-                Double(0.05, 10.));
+    section.add(
+      "Sleeper spacing (m)", sleeper_spacing,
+      "Distance between the middles of neighbouring supports. But on a beam the rail must end between half a "
+      "pad and half a spacing beyond its last supports.",
+      Double(0.05, 10.));
     section.add("Support 0 (mm)", support_0,
                 "x of the support with number 0. Numbers grow in rolling direction.",
                 Double(-20000., 20000.));
