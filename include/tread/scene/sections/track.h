@@ -61,7 +61,7 @@ namespace tread
     {
       return foundation == Foundation::beam;
     }
-    /// The rail's bottom stays in shape and moves.
+    /// The rail's bottom moves with what stands for the track.
     bool has_moving_base() const
     {
       return runs_along() || is_beam();
