@@ -4,8 +4,8 @@
 
     joint-force.py RUN ... [--names TEXT ...] [--gap 6] [--steps 0.5 ...] [--picture joint-force.png]
 
-Each RUN is a folder with the results of that scene. Simple model: the rigid wheel rolls over the rigid rails' shape, a mass under its load, above one that moves up and down on
-the springs and dampers of the co-running track, with Hertz's spring between them. At the edge of a step of height h the wheel's path has a kink of sqrt(2 h / R), which
+Each RUN is a folder with the results of that scene. Simple model: the rigid wheel, a mass under its load, rolls over the shape of the rails with Hertz's spring between them. Below
+them is a 60E1 rail as a beam without fishplates on pads, sleepers and ballast; for a run on a co-running track, its mass, spring and damper. At the edge of a step of height h the wheel's path has a kink of sqrt(2 h / R), which
 the table has times the speed: the speed with which the masses meet. --steps has the step of each run in mm, by which the second rail is higher; nan: no joint.
 """
 
@@ -19,6 +19,7 @@ from tread import Run
 from tread.blows import off_the_rail, speed
 from tread.commands import command_parser, run_command
 from tread.crossing_force import Rail, pass_over
+from tread.flat_force import Track, roll
 from tread.hertz import approach, ratio_of_semi_axes, semi_axes
 
 RADIUS, CROWN, LOAD, MASS, MODULUS = 0.46, 0.3, 100e3, 600., 0.5 * 210e9 / (1. - 0.3**2)  # SI units: as in the scene, the modulus of the pair
@@ -55,6 +56,19 @@ class Joint:
         return self.spring * max(0., self.free_height(place) - height)**1.5
 
 
+def simple_model(run: Run, joint: Joint, velocity: float, begin: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+    """(places, contact force) on the track of the run."""
+    given = run.parameters
+    if given["Track/Foundation"] != "beam":
+        return pass_over(joint, Rail(mass=Rail().mass + BARS), velocity, begin, end, LOAD, MASS, 1e-6)
+    value = lambda name, unit: float(given[f"Track/{name}"]) * unit
+    track = Track(spacing=value("Sleeper spacing (m)", 1.), pad_stiffness=value("Pad stiffness (MN per m)", 1e6), pad_damping=value("Pad damping (kN s per m)", 1e3),
+                  sleeper_mass=value("Sleeper mass (kg)", 1.), ballast_stiffness=value("Ballast stiffness (MN per m)", 1e6),
+                  ballast_damping=value("Ballast damping (kN s per m)", 1e3))
+    way, force = roll(track, lambda way: joint.free_height(begin + way), velocity, end - begin, LOAD, MASS, joint.spring, begin - value("Support 0 (mm)", 1e-3), 1e-6)[:2]
+    return begin + way, force
+
+
 def main() -> None:
     parser = command_parser(__doc__)
     parser.add_argument("runs", nargs="+", metavar="RUN")
@@ -67,11 +81,12 @@ def main() -> None:
     steps = arguments.steps + arguments.steps[-1:] * (len(arguments.runs) - len(arguments.steps))
     rows = []
     for folder, name, step in zip(arguments.runs, names, steps):
-        history = Run(folder).table("history.csv")
+        run = Run(folder)
+        history = run.table("history.csv")
         place, velocity = history["position_m"], speed(history)
         joint = Joint(1e-3 * arguments.gap, 1e-3 * step)
         rows.append((name, velocity, step, 1e3 * place, history["normal_force_N"],
-                     *pass_over(joint, Rail(mass=Rail().mass + BARS), velocity, place[0], place[-1], LOAD, MASS, 1e-6)))
+                     *simple_model(run, joint, velocity, place[0], place[-1])))
     print("| run | km/h | kink times speed, m/s | largest force, kN | simple model | at, mm | simple model | off the rail, mm | simple model |\n|---|---|---|---|---|---|---|---|---|")
     for name, velocity, step, place, force, of_model, model_force in rows:
         kink = 0. if math.isnan(step) else velocity * math.sqrt(2e-3 * abs(step) / RADIUS)
@@ -84,7 +99,7 @@ def main() -> None:
         figure, axes = subplots(len(rows), 1, figsize=(9, 2.6 * len(rows)), sharex=True, squeeze=False)
         for axis, (name, velocity, _, place, force, of_model, model_force) in zip(np.ravel(axes), rows):
             axis.plot(place, 1e-3 * force, color=BLUE, label="finite elements")
-            axis.plot(1e3 * of_model, 1e-3 * model_force, "--", color=RED, label="two masses and a Hertz spring")
+            axis.plot(1e3 * of_model, 1e-3 * model_force, "--", color=RED, label="simple model")
             axis.axvspan(-0.5 * arguments.gap, 0.5 * arguments.gap, color="0.85")
             axis.set(ylabel="force, kN", title=f"{name}, {3.6 * velocity:.0f} km/h")
         np.ravel(axes)[0].legend()

@@ -373,7 +373,6 @@ namespace tread
       return true;
     }
 
-    /// Bodies whose surface cannot be matched. @see SurfaceWeights
     /// Of the track that runs along: a mass that is right at low frequencies.
     std::string blow_on_a_mass(const Scene &scene)
     {
@@ -384,21 +383,7 @@ namespace tread
                : "";
     }
 
-    std::string stiff_piece(const Scene &scene)
-    {
-      constexpr double most = 0.1;
-      if (!scene.track.is_beam() || scene.rail.is_sliced())
-        return "";
-      // About its bottom, which does not stretch.
-      const double share = scene.rail.material.elastic().young_modulus * 2. * scene.rail.half_width() *
-                           std::pow(scene.rail.height(), 3) / 3. / scene.track.beam_bending_stiffness;
-      return share <= most ? ""
-                           : format("'Track/Foundation' beam: the meshed piece of the rail adds about %.0f "
-                                    "%% to 'Track/Beam bending "
-                                    "stiffness (MN m2)'; a lower one of them keeps that of the rail",
-                                    100. * share);
-    }
-
+    /// Bodies whose surface cannot be matched. @see SurfaceWeights
     std::string unmatched_surface(const Scene &scene)
     {
       if (!scene.solid.matched_surface || !element_named(scene.solid.element).has_hourglass_modes)
@@ -429,7 +414,7 @@ namespace tread
     std::vector<std::string> list = implausible_values();
     for (const std::string &doubt :
          {missed_defect(), begins_on_defect(*this), unseen_detail_along(), narrow_island(), short_memory(),
-          short_way(), unmatched_surface(*this), stiff_piece(*this), blow_on_a_mass(*this)})
+          short_way(), unmatched_surface(*this), blow_on_a_mass(*this)})
       if (!doubt.empty())
         list.push_back(doubt);
     if (rail_mesh())

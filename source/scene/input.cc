@@ -433,6 +433,8 @@ namespace tread
     wheelset.check();
     if (!track.support_file.empty())
       take_support_springs();
+    if (!track.beam_file.empty() && track.is_beam())
+      take_beam_rows();
   }
 
 

@@ -47,7 +47,7 @@ namespace tread
           std::pair("Wheel/Deviation", wheel.deviation), std::pair("Rail/Measured head", rail.measured_head),
           std::pair("Rail/Slices", rail.slices), std::pair("Rail/Mesh file", rail.mesh_file),
           std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
-          std::pair("Track/Support file", track.support_file)})
+          std::pair("Track/Support file", track.support_file), std::pair("Track/Beam file", track.beam_file)})
       if (const std::string path = located(file);
           !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
         {

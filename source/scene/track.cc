@@ -5,6 +5,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +18,27 @@ namespace tread
   {
     /// Places that should be equal may differ by this, m.
     constexpr double same_place = 1e-9;
+
+    std::string named_file(const std::string &parameter, const std::string &file)
+    {
+      return "'" + parameter + "': '" + file + "' ";
+    }
+
+    /// @throws InputError if it has other columns
+    CsvTable table_with(const std::vector<std::string> &columns,
+                        const std::string              &parameter,
+                        const std::string              &file)
+    {
+      return CsvTable(
+        file,
+        [&](const std::string &name) {
+          require(std::find(columns.begin(), columns.end(), name) != columns.end(),
+                  named_file(parameter, file) + "has a column '" + name + "'; it may have " +
+                    boost::algorithm::join(columns, ", "));
+          return true;
+        },
+        "'" + parameter + "': cannot read '" + file + "'");
+    }
   } // namespace
 
 
@@ -82,19 +105,11 @@ namespace tread
        {"ballast_stiffness_MN_per_m", &Springs::ballast_stiffness, 1e6, 0., true},
        {"ballast_damping_kN_s_per_m", &Springs::ballast_damping, 1e3, 0., true},
        {"ballast_gap_mm", &Springs::ballast_gap, 1e-3, 0., true}}};
-    const std::string file = located(track.support_file), begin = "'Track/Support file': '" + file + "' ";
-    const CsvTable    table(
-         file,
-         [&](const std::string &name) {
-        const bool is_known =
-          name == "support" ||
-          std::any_of(columns.begin(), columns.end(), [&](const Column &c) { return name == c.name; });
-        require(is_known, begin + "has a column '" + name +
-                               "'; it may have support, pad_stiffness_MN_per_m, pad_damping_kN_s_per_m, "
-                                  "ballast_stiffness_MN_per_m, ballast_damping_kN_s_per_m and ballast_gap_mm");
-        return true;
-      },
-         "'Track/Support file': cannot read '" + file + "'");
+    const std::string file = located(track.support_file), begin = named_file("Track/Support file", file);
+    std::vector<std::string> names{"support"};
+    for (const Column &column : columns)
+      names.push_back(column.name);
+    const CsvTable             table   = table_with(names, "Track/Support file", file);
     const std::vector<double> &numbers = table.column("support");
     require(!numbers.empty() && table.names().size() > 1, begin + "has no rows, or no column beside support");
     for (std::size_t row = 0; row < numbers.size(); ++row)
@@ -118,6 +133,46 @@ namespace tread
                         " is too small; at least " + text_of(column.least / column.in_si));
             }
         support_springs[number] = own;
+      }
+  }
+
+
+  void Scene::take_beam_rows()
+  {
+    struct Column
+    {
+      const char *name;
+      double BeamRow::*value;
+      double           in_si, least, largest; ///< limits as in the file: in SI units it would lie beyond
+    };
+    constexpr std::array<Column, 4> columns{
+      {{"x_mm", &BeamRow::x, 1e-3, -1e6, 1e6},
+       {"bending_stiffness_MN_m2", &BeamRow::bending_stiffness, 1e6, 1e-3, 1e3},
+       {"shear_stiffness_MN", &BeamRow::shear_stiffness, 1e6, 1e-1, 1e5},
+       {"mass_kg_per_m", &BeamRow::mass, 1., 1e-1, 1e4}}};
+    constexpr double         least_length = 1e-3; // m
+    const std::string        file = located(track.beam_file), begin = named_file("Track/Beam file", file);
+    std::vector<std::string> names;
+    for (const Column &column : columns)
+      names.push_back(column.name);
+    const CsvTable table = table_with(names, "Track/Beam file", file);
+    require(table.n_rows() > 0, begin + "has no rows");
+    for (std::size_t row = 0; row < table.n_rows(); ++row)
+      {
+        const std::string place = begin + "row " + std::to_string(row + 1) + ": ";
+        BeamRow           own;
+        for (const Column &column : columns)
+          {
+            const double value = table.column(column.name)[row];
+            require(value >= column.least && value <= column.largest,
+                    place + column.name + " " + text_of(value) + " is no value of a rail; from " +
+                      text_of(column.least) + " to " + text_of(column.largest));
+            own.*column.value = column.in_si * value;
+          }
+        require(beam_rows.empty() || own.x >= beam_rows.back().x + least_length,
+                place + "x_mm " + text_in_mm(own.x) +
+                  " must be at least a millimetre behind that of the row before");
+        beam_rows.push_back(own);
       }
   }
 
@@ -157,15 +212,16 @@ namespace tread
 
   BeamUnderRail Scene::beam_under_rail() const
   {
-    const ElasticMaterial &steel = rail.material.elastic();
-    BeamUnderRail          beam;
-    beam.section.bending_stiffness = track.beam_bending_stiffness;
-    beam.section.shear_stiffness   = track.beam_shear_stiffness;
-    beam.section.mass              = track.beam_mass;
-    beam.section.rotary_inertia    = track.beam_bending_stiffness * steel.density / steel.young_modulus;
-    beam.axial_stiffness           = track.beam_mass * steel.young_modulus / steel.density;
-    beam.track                     = track_beam_alike();
-    beam.track.gravity             = 0.; // it carries nothing but the cells and the wheel
+    const ElasticMaterial &steel   = rail.material.elastic();
+    const auto             section = [&](const double bending, const double shear, const double mass) {
+      return reference::BeamSection{bending, shear, mass, bending * steel.density / steel.young_modulus};
+    };
+    BeamUnderRail beam;
+    beam.section         = section(track.beam_bending_stiffness, track.beam_shear_stiffness, track.beam_mass);
+    beam.axial_stiffness = track.beam_mass * steel.young_modulus / steel.density;
+    beam.cells           = steel;
+    beam.track           = track_beam_alike();
+    beam.track.gravity   = 0.; // it carries nothing but the cells and the wheel
     // So many spans go on beyond both ends of the piece.
     const int beyond         = rail.spans_beyond - 1,
               first          = std::floor((rail_begin() - track.support_0) / track.sleeper_spacing) - beyond,
@@ -173,7 +229,10 @@ namespace tread
     beam.track.n_spans       = last - first + 1;
     beam.track.first_support = 0.5 * track.sleeper_spacing;
     beam.begin               = track.support_0 + (first - 0.5) * track.sleeper_spacing;
-    beam.track.loaded        = {rail_begin() - beam.begin, rail_end() - beam.begin, 0.};
+    beam.track.loaded        = {rail_begin() - beam.begin, rail_end() - beam.begin, {}};
+    for (const BeamRow &row : beam_rows)
+      beam.track.stretches.push_back(
+        {row.x - beam.begin, section(row.bending_stiffness, row.shear_stiffness, row.mass)});
     return beam;
   }
 
@@ -215,10 +274,19 @@ namespace tread
 
   void Scene::check_beam() const
   {
-    require(rail.shape != RailShape::full_section && !rail.is_meshed(),
-            "'Track/Foundation' beam has the whole rail's stiffness, to which the meshed piece is to add "
-            "little: 'Rail/Shape' must be head, block or slices");
+    require(rail.shape != RailShape::full_section,
+            "'Track/Foundation' beam stands for the rail below the meshed piece: 'Rail/Shape' must be head, "
+            "block, slices or mesh");
+    require(
+      !rail_mesh() || !rail_mesh()->between_planes,
+      "'Track/Foundation' beam needs a rail of some width, and this one lies between planes of symmetry");
     track.check();
+    const BeamUnderRail beam = beam_under_rail();
+    const double        end  = beam.begin + beam.track.n_spans * beam.track.spacing;
+    for (const BeamRow &row : beam_rows)
+      require(row.x > beam.begin && row.x < end,
+              "'Track/Beam file': x_mm " + text_in_mm(row.x) + " lies beyond the beam, which goes from " +
+                text_in_mm(beam.begin) + " to " + text_in_mm(end) + " mm ('Rail/Spans beyond')");
   }
 
 

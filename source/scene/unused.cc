@@ -178,7 +178,7 @@ namespace tread
        !track.has_supports() && !track.is_beam(),
        "co-running"},
       {"Track",
-       {"Beam bending stiffness (MN m2)", "Beam shear stiffness (MN)", "Beam mass (kg per m)"},
+       {"Beam bending stiffness (MN m2)", "Beam shear stiffness (MN)", "Beam mass (kg per m)", "Beam file"},
        "Foundation",
        track.is_beam() || track.foundation == Foundation::rigid,
        "beam"},

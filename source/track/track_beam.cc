@@ -37,6 +37,50 @@ namespace tread
   } // namespace
 
 
+  BeamNodes beam_nodes(const TrackBeamParameters &parameters)
+  {
+    constexpr double  same_place = 1e-4; // m
+    const LoadedPart &loaded     = parameters.loaded;
+    BeamNodes         nodes{{0.}, {}};
+    const auto        divide = [&](const double to) {
+      const double       from    = nodes.places.back();
+      const bool         carries = loaded.is_there() && to > loaded.from && from < loaded.to;
+      const double       longest = carries ? loaded_element : longest_element;
+      const unsigned int n       = std::max(1., std::ceil((to - from) / longest - 1e-9));
+      for (unsigned int i = 1; i <= n; ++i)
+        nodes.places.push_back(i < n ? from + (to - from) * i / n : to);
+    };
+    const auto divide_at_stretches = [&](const double to) {
+      for (const BeamStretch &stretch : parameters.stretches)
+        if (stretch.from > nodes.places.back() + same_place && stretch.from < to - same_place)
+          divide(stretch.from);
+      divide(to);
+    };
+    divide(std::min(first_element, 0.5 * parameters.first_support));
+    for (unsigned int s = 0; s < parameters.n_spans; ++s)
+      {
+        divide_at_stretches(parameters.first_support + s * parameters.spacing);
+        nodes.of_support.push_back(nodes.places.size() - 1);
+      }
+    // Half a span is left behind the last support.
+    divide_at_stretches(nodes.places.back() + 0.5 * parameters.spacing);
+    return nodes;
+  }
+
+
+  const reference::BeamSection &section_between(const reference::BeamSection   &before,
+                                                const std::vector<BeamStretch> &stretches,
+                                                const double                    from,
+                                                const double                    to)
+  {
+    const reference::BeamSection *section = &before;
+    for (const BeamStretch &stretch : stretches)
+      if (stretch.from < 0.5 * (from + to)) // sections change at nodes
+        section = &stretch.section;
+    return *section;
+  }
+
+
   TrackBeam::TrackBeam(const reference::BeamSection &beam,
                        const double                  axial_stiffness,
                        const TrackBeamParameters    &parameters)
@@ -44,25 +88,12 @@ namespace tread
   {
     if (parameters.sleeper.size() == 0)
       this->parameters.sleeper = rigid_sleeper(parameters.layers);
-    const SleeperModes &sleeper = this->parameters.sleeper;
-    const LoadedPart   &loaded  = this->parameters.loaded;
-    // Half a span is left behind the last support.
-    std::vector<double> places{0.};
-    const auto          divide = [&](const double to) {
-      const double       from    = places.back();
-      const bool         carries = loaded.is_there() && to > loaded.from && from < loaded.to;
-      const double       longest = carries ? loaded_element : longest_element;
-      const unsigned int n       = std::max(1., std::ceil((to - from) / longest - 1e-9));
-      for (unsigned int i = 1; i <= n; ++i)
-        places.push_back(i < n ? from + (to - from) * i / n : to);
-    };
-    divide(std::min(first_element, 0.5 * parameters.first_support));
-    for (unsigned int s = 0; s < parameters.n_spans; ++s)
-      {
-        divide(parameters.first_support + s * parameters.spacing);
-        node_of_support.push_back(places.size() - 2);
-      }
-    divide(places.back() + 0.5 * parameters.spacing);
+    const SleeperModes        &sleeper = this->parameters.sleeper;
+    const LoadedPart          &loaded  = this->parameters.loaded;
+    const BeamNodes            nodes   = beam_nodes(parameters);
+    const std::vector<double> &places  = nodes.places;
+    for (const std::size_t at : nodes.of_support)
+      node_of_support.push_back(at - 1); // the section is none
     n_nodes                    = places.size() - 1;
     const std::size_t   n      = 3 * n_nodes + parameters.n_spans * sleeper.size();
     const double        length = places.back();
@@ -78,17 +109,21 @@ namespace tread
       of_elements.assign(n_nodes + 1, 0.);
     for (std::size_t i = 0; i < n_nodes; ++i)
       {
-        const double h = places[i + 1] - places[i];
-        elements.push_back({h, axial_stiffness / h, beam.bending_stiffness / h,
-                            1. / (1. / beam.shear_stiffness + h * h / (12. * beam.bending_stiffness))});
-        const double carrying = std::min(places[i + 1], loaded.to) - std::max(places[i], loaded.from);
-        const double of_cells =
-          loaded.is_there() && carrying > 0. ? loaded.cells * carrying / (loaded.to - loaded.from) : 0.;
+        const double           h = places[i + 1] - places[i];
+        reference::BeamSection here =
+          section_between(beam, this->parameters.stretches, places[i], places[i + 1]);
+        if (!loaded.cells.empty())
+          for (double reference::BeamSection::*const value :
+               {&reference::BeamSection::mass, &reference::BeamSection::bending_stiffness,
+                &reference::BeamSection::rotary_inertia})
+            here.*value -= loaded.cells[i].*value;
+        elements.push_back({h, axial_stiffness / h, here.bending_stiffness / h,
+                            1. / (1. / here.shear_stiffness + h * h / (12. * here.bending_stiffness))});
         for (const std::size_t node : {i == 0 ? i : i - 1, i}) // the section has none
           {
-            mass[unknown(along, node)] += 0.5 * (h * beam.mass - of_cells);
-            mass[unknown(up, node)] += 0.5 * (h * beam.mass - of_cells);
-            mass[unknown(slope, node)] += 0.5 * h * beam.rotary_inertia;
+            mass[unknown(along, node)] += 0.5 * h * here.mass;
+            mass[unknown(up, node)] += 0.5 * h * here.mass;
+            mass[unknown(slope, node)] += 0.5 * h * here.rotary_inertia;
           }
       }
     for (std::size_t i = 0; i < n_nodes; ++i)
@@ -282,7 +317,7 @@ namespace tread
     // 12 E I over kappa G A h^2, where the element has a shear stiffness that makes up for its one point.
     const double phi = 12. * bending / (h * h) / element.shear - 1., over = 1. / (1. + phi);
     const double dip = over * (s * s - s);
-    return {node,
+    return {2 * (node - first_loaded),
             {1. + over * (s * s * (2. * s - 3.) - phi * s),
              h * over * s * (s * s - (2. + 0.5 * phi) * s + 1. + 0.5 * phi),
              over * (s * s * (3. - 2. * s) + phi * s),
@@ -296,7 +331,7 @@ namespace tread
     AtSection value;
     for (unsigned int k = 0; k < 4; ++k)
       {
-        const double of_node = values[unknown(k % 2 == 0 ? up : slope, at.node + k / 2)];
+        const double of_node = values[unknown(k % 2 == 0 ? up : slope, first_loaded + at.first / 2 + k / 2)];
         value.up += at.up[k] * of_node;
         value.slope += at.slope[k] * of_node;
       }

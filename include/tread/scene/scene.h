@@ -416,8 +416,9 @@ namespace tread
     void check_guidance_springs() const;
     /// Read the table of 'Guidance', and the position at the start from it.
     void take_wheelset_motion();
-    /// Read 'Track/Support file'.
+    /// Read 'Track/Support file' and 'Beam file'.
     void take_support_springs();
+    void take_beam_rows();
     /// Quantities that follow from the positions, files and shapes named by the parameters.
     struct Shapes
     {
@@ -522,6 +523,7 @@ namespace tread
     std::shared_ptr<const Shapes>    shapes;
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
+    std::vector<BeamRow>                       beam_rows;
     std::map<int, TrackParameters::Springs>    support_springs; ///< of 'Track/Support file', by the number
   };
 } // namespace tread

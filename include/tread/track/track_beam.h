@@ -3,6 +3,7 @@
 #define tread_track_track_beam_h
 
 #include <tread/base/archive.h>
+#include <tread/material/elastic.h>
 #include <tread/reference/supported_beam.h>
 
 #include <deal.II/lac/sparse_direct.h>
@@ -31,12 +32,21 @@ namespace tread
   struct LoadedPart
   {
     double from = 0., to = 0.; ///< m
-    double cells = 0.;         ///< their mass, which the beam has less there, kg
+    /// What the cells have, and the beam has less, by element of the whole beam: mass, bending stiffness and
+    /// rotary inertia. Empty: nothing.
+    std::vector<reference::BeamSection> cells;
 
     bool is_there() const
     {
       return to > from;
     }
+  };
+
+  /// From a place on the beam has another section.
+  struct BeamStretch
+  {
+    double                 from; ///< from the section on, m
+    reference::BeamSection section;
   };
 
   struct TrackBeamParameters
@@ -49,8 +59,22 @@ namespace tread
     double                   gravity         = 0.;   ///< m/s^2
     reference::SupportLayers layers;                 ///< of each support
     SleeperModes             sleeper;                ///< none given: that of the layers, which is rigid
-    LoadedPart               loaded; ///< with one the beam absorbs what arrives at its beginning as well
+    LoadedPart               loaded;    ///< with one the beam absorbs what arrives at its beginning as well
+    std::vector<BeamStretch> stretches; ///< in their order; before the first one the beam's own section
   };
+
+  /// Where the nodes of a beam lie.
+  struct BeamNodes
+  {
+    std::vector<double>      places;     ///< distances from the section, which comes first, m
+    std::vector<std::size_t> of_support; ///< places over the supports
+  };
+  BeamNodes beam_nodes(const TrackBeamParameters &parameters);
+  /// Its section between two neighbouring nodes. @param before the first stretch
+  const reference::BeamSection &section_between(const reference::BeamSection   &before,
+                                                const std::vector<BeamStretch> &stretches,
+                                                const double                    from,
+                                                const double                    to);
 
   /// A beam under a piece of rail.
   struct BeamUnderRail
@@ -59,6 +83,7 @@ namespace tread
     double                 axial_stiffness = 0.; ///< E A, N
     double                 begin           = 0.; ///< x of the beam's held section, m
     TrackBeamParameters    track;                ///< with the part that carries cells
+    ElasticMaterial        cells;                ///< of that part
   };
 
   /// A rail as a Timoshenko beam and bar on supports (springs, dampers and sleepers). It stands for the track
@@ -97,10 +122,6 @@ namespace tread
     {
       return last_loaded - first_loaded + 1;
     }
-    std::size_t first_loaded_node() const
-    {
-      return first_loaded;
-    }
     /// Up (m) and slope (rad) of its nodes, one node after the other.
     std::vector<double> displacements_of_loaded() const;
     /// How a place of it follows two of its nodes, the first of which is this one: deflection and slope of
@@ -108,7 +129,7 @@ namespace tread
     /// of a Timoshenko beam without loads between them have it (Friedman & Kosmatka 1993).
     struct Place
     {
-      std::size_t           node;
+      std::size_t           first; ///< of the four among the ups and slopes of the loaded nodes
       std::array<double, 4> up, slope;
     };
     /// @param from_section m

@@ -3,10 +3,12 @@
 #include <tread/base/input_error.h>
 #include <tread/base/reproducible_sum.h>
 #include <tread/dynamics/parts/rail_on_beam.h>
+#include <tread/solid/hexahedron.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
@@ -14,30 +16,101 @@ namespace tread
 {
   namespace
   {
-    /// Share of the beam's mass that is left to it where cells stand: lighter ones could need shorter steps.
-    constexpr double least_mass = 0.25;
+    /// Share of the beam's mass and stiffness that is left to it where cells stand: lighter ones could need
+    /// shorter steps, and the stiffness of cells is not quite that of a beam.
+    constexpr double least_left = 0.25;
 
     /// m: by which a load is moved to find how the deflection follows it.
     constexpr double small_way = 1e-3;
 
-    /// The beam without the mass of the cells that move by themselves. Collective.
+    /// Mean of the square of z over a cell that is nearly a box, m^2: by the mass matrix of its corners.
+    double mean_square(const std::array<dealii::Point<3>, 8> &corners, const double bottom)
+    {
+      double sum = 0.;
+      for (unsigned int a = 0; a < 8; ++a)
+        for (unsigned int b = 0; b < 8; ++b)
+          sum +=
+            (corners[a][2] - bottom) * (corners[b][2] - bottom) / 27. / (1 << std::bitset<3>(a ^ b).count());
+      return sum;
+    }
+
+    /// The least z of the nodes that the beam carries, m. Collective.
+    double bottom_of(const Mesh &mesh, const std::vector<unsigned int> &carried)
+    {
+      double lowest = std::numeric_limits<double>::max();
+      for (const unsigned int i : carried)
+        lowest = std::min(lowest, mesh.nodes[i][2]);
+      return dealii::Utilities::MPI::min(lowest, mesh.comm);
+    }
+
+    void check_what_is_left(const BeamUnderRail          &beam,
+                            const double                  from,
+                            const double                  to,
+                            const reference::BeamSection &cells)
+    {
+      const reference::BeamSection &whole = section_between(beam.section, beam.track.stretches, from, to);
+      const auto                    check = [&](const char *parameter, const char *column, const double has,
+                             const double in_cells) {
+        require(in_cells <= (1. - least_left) * has,
+                                   format("%s %g at x = %.0f mm: the meshed piece of the rail has %.3g there, so that at least "
+                                                             "%.3g is needed",
+                       &whole == &beam.section ? parameter : column, has,
+                                          1e3 * (beam.begin + 0.5 * (from + to)), in_cells, in_cells / (1. - least_left)));
+      };
+      check("'Track/Beam mass (kg per m)'", "'Track/Beam file': mass_kg_per_m", whole.mass, cells.mass);
+      check("'Track/Beam bending stiffness (MN m2)'", "'Track/Beam file': bending_stiffness_MN_m2",
+            1e-6 * whole.bending_stiffness, 1e-6 * cells.bending_stiffness);
+    }
+
+    /// The beam without the mass of the cells that move by themselves and without their stiffness as they
+    /// bend about their bottom, which it holds. Collective.
     BeamUnderRail without_cells(const PartOf &of, BeamUnderRail beam, const unsigned int body)
     {
-      ReproducibleSum<double> sum;
-      for (unsigned int i = 0; i < of.mesh.nodes.size(); ++i)
-        if (of.mesh.node_bodies[i] == body && of.mesh.shared_nodes.is_owned(i))
-          sum.add(of.true_mass[i]);
+      const Mesh                     &mesh    = of.mesh;
+      const std::vector<double>       places  = beam_nodes(beam.track).places;
+      const std::size_t               n       = places.size() - 1;
+      const std::vector<unsigned int> carried = mesh.boundary_nodes(body, Boundary::support);
+      const double                    bottom  = bottom_of(mesh, carried);
       // What nodes that the beam carries would weigh does not act.
-      for (const unsigned int i : of.mesh.boundary_nodes(body, Boundary::support))
-        if (of.mesh.shared_nodes.is_owned(i))
-          sum.add(-of.true_mass[i]);
-      LoadedPart  &loaded = beam.track.loaded;
-      const double length = loaded.to - loaded.from;
-      loaded.cells        = sum.value(of.mesh.comm);
-      require(loaded.cells <= (1. - least_mass) * beam.section.mass * length,
-              format("'Track/Beam mass (kg per m)' %g: the meshed piece of the rail has %.3g kg, so that at "
-                     "least %g kg/m are needed",
-                     beam.section.mass, loaded.cells, std::ceil(loaded.cells / (1. - least_mass) / length)));
+      std::vector<bool> moves(mesh.nodes.size(), true);
+      for (const unsigned int i : carried)
+        moves[i] = false;
+      std::vector<ReproducibleSum<double>> mass(n), bending(n); // times lengths: kg, N m^3
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+        if (mesh.cells[c].body == body)
+          {
+            const auto                corners = mesh.corners(c);
+            const HexahedronIntegrals cell(corners);
+            double                    moving = 0., from = corners[0][0], to = from;
+            for (unsigned int a = 0; a < 8; ++a)
+              {
+                moving += moves[mesh.cells[c].nodes[a]] ? cell.node_volume[a] : 0.;
+                from = std::min(from, corners[a][0]);
+                to   = std::max(to, corners[a][0]);
+              }
+            const double square = mean_square(corners, bottom);
+            for (std::size_t e = 0; e < n; ++e)
+              if (const double share =
+                    (std::min(to - beam.begin, places[e + 1]) - std::max(from - beam.begin, places[e])) /
+                    (to - from);
+                  share > 0.)
+                {
+                  mass[e].add(share * beam.cells.density * moving);
+                  bending[e].add(share * beam.cells.young_modulus * cell.volume * square);
+                }
+          }
+      LoadedPart &loaded = beam.track.loaded;
+      loaded.cells.assign(n, reference::BeamSection());
+      for (std::size_t e = 0; e < n; ++e)
+        if (places[e + 1] > loaded.from && places[e] < loaded.to)
+          {
+            const double            length = places[e + 1] - places[e];
+            reference::BeamSection &cells  = loaded.cells[e];
+            cells.mass                     = mass[e].value(mesh.comm) / length;
+            cells.bending_stiffness        = bending[e].value(mesh.comm) / length;
+            cells.rotary_inertia = cells.bending_stiffness * beam.cells.density / beam.cells.young_modulus;
+            check_what_is_left(beam, places[e], places[e + 1], cells);
+          }
       return beam;
     }
 
@@ -53,15 +126,11 @@ namespace tread
     , body(body)
     , nodes(of.mesh.boundary_nodes(body, Boundary::support))
     , begin(beam.begin)
+    , bottom(bottom_of(of.mesh, nodes))
     , track(track_of(without_cells(part_of, beam, body)))
   {
-    double lowest = std::numeric_limits<double>::max();
     for (const unsigned int i : nodes)
-      {
-        places.push_back(place_of(of.mesh.nodes[i][0]));
-        lowest = std::min(lowest, of.mesh.nodes[i][2]);
-      }
-    bottom = dealii::Utilities::MPI::min(lowest, of.mesh.comm);
+      places.push_back(place_of(of.mesh.nodes[i][0]));
   }
 
 
@@ -71,7 +140,7 @@ namespace tread
     if (begun)
       for (unsigned int k = 0; k < 4; ++k)
         {
-          const double before = rest[2 * (place.node - track.first_loaded_node()) + k];
+          const double before = rest[place.first + k];
           at.up -= place.up[k] * before;
           at.slope -= place.slope[k] * before;
         }
@@ -104,7 +173,7 @@ namespace tread
           const TrackBeam::Place &at     = places[n];
           const double            up     = state.force[i][2];
           const double            moment = -state.force[i][0] * (of.mesh.nodes[i][2] - bottom);
-          double                 *of_two = sums + 2 * (at.node - track.first_loaded_node());
+          double                 *of_two = sums + at.first;
           for (unsigned int k = 0; k < 4; ++k)
             of_two[k] += of.quanta.on_hubs.round(at.up[k] * up + at.slope[k] * moment);
         }
@@ -149,7 +218,7 @@ namespace tread
           const TrackBeam::Place at    = place_of(load.x + side * small_way);
           const double           share = side * load.force * load.velocity_x / (2. * small_way);
           for (unsigned int k = 0; k < 4; ++k)
-            rates[2 * (at.node - track.first_loaded_node()) + k] += share * at.up[k];
+            rates[at.first + k] += share * at.up[k];
         }
     track.follow_loads(rates.data());
     for (unsigned int i = 0; i < state.v.size(); ++i)

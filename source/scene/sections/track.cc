@@ -123,13 +123,19 @@ namespace tread
     section.add("Lateral damping (kN s per m)", lateral_damping, "Lateral damping of the co-running track.",
                 damping);
     section.add("Beam bending stiffness (MN m2)", beam_bending_stiffness,
-                "E I of the rail's whole section, of which a beam is made. The default is a 60E1 rail's; a "
-                "crossing has several times as much.",
+                "E I of the rail's whole section, of which a beam is made, that of the cells included. The "
+                "default is a 60E1 rail's; a crossing has several times as much.",
                 Double(1e-3, 1e4));
     section.add("Beam shear stiffness (MN)", beam_shear_stiffness, "The same in shear, kappa G A.",
                 Double(1e-1, 1e6));
     section.add("Beam mass (kg per m)", beam_mass, "The same: mass per length, that of the cells included.",
                 Double(1e-1, 1e5));
+    section.add(
+      "Beam file", beam_file,
+      "Table of stretches of the beam that differ, such as a joint with fishplates or the casting of a "
+      "crossing, separated by commas, with a row of names: x_mm, from which on up to the next row's the "
+      "beam has this bending_stiffness_MN_m2, shear_stiffness_MN and mass_kg_per_m. Before the first "
+      "row it has those of the parameters, behind the last row that row's.");
   }
 
 

@@ -10,15 +10,16 @@
 
 namespace tread
 {
-  /// A piece of a rail whose bottom is bonded to a beam on pads, sleepers and ballast, which has the mass and
-  /// the stiffness of the whole rail: so the rail bends and has its waves at the price of the cells under the
-  /// wheel. The bottom moves up with the beam and turns with its cross-sections; along and across it is held.
-  /// The track is at rest under the load with which the motion begins, and displacements count from there.
+  /// A piece of a rail whose bottom is bonded to a beam on pads, sleepers and ballast, which with the
+  /// cells has the mass and the stiffness of the whole rail: so the rail bends and has its waves at the price
+  /// of the cells under the wheel. The bottom moves up with the beam and turns with its cross-sections; along
+  /// and across it is held. The track is at rest under the load with which the motion begins, and
+  /// displacements count from there.
   class RailOnBeam : public Part
   {
   public:
     /// @param body whose support nodes the beam carries. Collective.
-    /// @throws InputError if the beam weighs too little beside the cells
+    /// @throws InputError if the beam has too little mass or stiffness beside the cells
     RailOnBeam(const PartOf &part_of, const BeamUnderRail &beam, const unsigned int body);
 
     /// Displacement since the start (m, rad) at x within the rail.
@@ -79,7 +80,7 @@ namespace tread
     std::vector<unsigned int>     nodes;
     std::vector<TrackBeam::Place> places; ///< of these nodes
     const double                  begin;
-    double                        bottom = 0.; ///< least z of the nodes, m
+    const double                  bottom; ///< least z of the nodes, m
     TrackBeam                     track;
     std::vector<double>           rest; ///< up and slope of the beam's nodes under the load at the start
     bool                          begun          = false; ///< that load is known

@@ -27,6 +27,12 @@ namespace tread
   template <>
   const std::vector<Choice<SleeperKind>> &choices();
 
+  /// Row of 'Track/Beam file': from x on the beam has this section. SI units.
+  struct BeamRow
+  {
+    double x, bending_stiffness, shear_stiffness, mass;
+  };
+
   /// Section `Track`. SI units.
   struct TrackSection
   {
@@ -47,7 +53,8 @@ namespace tread
     double       vertical_stiffness = 100e6, vertical_damping = 60e3, lateral_stiffness = 30e6,
            lateral_damping = 30e3;
     // 60E1
-    double beam_bending_stiffness = 6.4e6, beam_shear_stiffness = 250e6, beam_mass = 60.2;
+    double      beam_bending_stiffness = 6.4e6, beam_shear_stiffness = 250e6, beam_mass = 60.2;
+    std::string beam_file; ///< stretches of it that differ; empty: none
 
     bool has_supports() const
     {
