@@ -37,7 +37,7 @@ namespace
     b.track.n_spans       = 2 * spans;
     b.track.first_support = 0.5 * spacing;
     b.track.layers        = {200e6, 30e3, 0.04, 150., 60e6, 50e3};
-    b.track.loaded        = {begin - b.begin, begin + length - b.begin, 0.};
+    b.track.loaded        = {begin - b.begin, begin + length - b.begin, {}};
     return b;
   }
 
@@ -236,30 +236,31 @@ namespace
     b.begin                = -before - 5.5 * spacing;
     b.track.loaded         = {0.2 - b.begin, 0.5 - b.begin, {}};
     const std::vector<double> places{0.2, 0.31, 0.35, 0.45};
-    const auto                worst = [&](const std::string &name, const double largest) {
+    const auto                compare = [&](const std::string &name) {
       OneLoad under(b, places[1]);
       under.set(force, 0.);
       under.track.take_loads_at_rest();
       const std::vector<double> there = deflections_by_equations(b, places[1], force, places);
       double                    off   = 0.;
-      for (std::size_t i = 0; i < places.size(); ++i)
+      for (const std::size_t i : {0, 2, 3})
         off = std::max(
                          off, std::abs(under.track.displacement_at(under.track.place(places[i] - b.begin)).up / there.at(i) -
                                        1.));
-      check.below(name, off, 1e-4);
-      check.relative(name + ", at the load, um", 1e6 * there.at(1), largest, 0.5);
+      check.below(name + ": deflection at rest, difference", off, 1e-8);
+      // Within an element the force bends it a little more.
+      check.relative(name + ": at the load, um", 1e6 * under.track.displacement_at(under.place).up,
+                                    1e6 * there.at(1), 1e-3);
       return there.at(1);
     };
-    const double whole = worst("beam by its equations: deflection at rest, difference", -400.);
+    const double whole = compare("beam by its equations");
     const auto   from  = [&](const double x) {
       return x - b.begin;
     };
-    b.track.stretches       = {{from(-0.15), {9e6, 400e6, 100., 0.34}},
-                               {from(0.347), {0.5e6, 80e6, 40., 0.02}},
-                               {from(0.353), {9e6, 400e6, 100., 0.34}},
-                               {from(0.75), b.section}};
-    const double with_joint = worst("with a joint: deflection at rest, difference", -400.);
-    check.that("a joint is softer", with_joint < 1.01 * whole);
+    b.track.stretches = {{from(-0.15), {9e6, 400e6, 100., 0.34}},
+                         {from(0.347), {0.5e6, 80e6, 40., 0.02}},
+                         {from(0.353), {9e6, 400e6, 100., 0.34}},
+                         {from(0.75), b.section}};
+    check.that("with a joint it bends otherwise", std::abs(compare("with a joint") / whole - 1.) > 0.02);
   }
 
   /// A block of steel on a beam, with a force upwards on nodes across its top beside its middle.
@@ -432,6 +433,6 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_following(check);
   check_block(check, "a block on it", 6, 2, 0.01);
   // A sixth of the beam's mass and two fifths of its stiffness.
-  check_block(check, "a long and high block on it", 60, 5, 0.01);
+  check_block(check, "a long and high block on it", 60, 5, 0.02);
   check_loaded_start(check);
 }

@@ -137,9 +137,14 @@ namespace tread
     /// Forces (N) and moments (N m) of the cells on its nodes, one node after the other.
     void set_loads(const double *of_nodes);
     /// Displace the beam as these loads do at rest, with the section where it is; velocities stay. Or set its
-    /// velocities to those with which it follows loads that change by so much in a second.
-    void      take_loads_at_rest();
-    void      follow_loads(const double *rates_of_nodes);
+    /// velocities to those with which it follows loads that change by so much in a second, or to those of a
+    /// beam with the same nodes.
+    void take_loads_at_rest();
+    void follow_loads(const double *rates_of_nodes);
+    void move_as(const TrackBeam &other)
+    {
+      velocity = other.velocity;
+    }
     AtSection displacement_at(const Place &place) const
     {
       return value_at(place, displacement);

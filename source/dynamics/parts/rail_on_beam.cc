@@ -123,9 +123,9 @@ namespace tread
 
   RailOnBeam::RailOnBeam(const PartOf &part_of, const BeamUnderRail &beam, const unsigned int body)
     : of(part_of)
+    , whole(beam)
     , body(body)
     , nodes(of.mesh.boundary_nodes(body, Boundary::support))
-    , begin(beam.begin)
     , bottom(bottom_of(of.mesh, nodes))
     , track(track_of(without_cells(part_of, beam, body)))
   {
@@ -220,7 +220,10 @@ namespace tread
           for (unsigned int k = 0; k < 4; ++k)
             rates[at.first + k] += share * at.up[k];
         }
-    track.follow_loads(rates.data());
+    // The cells follow with the beam, and resist as they will.
+    TrackBeam of_both = track_of(whole);
+    of_both.follow_loads(rates.data());
+    track.move_as(of_both);
     for (unsigned int i = 0; i < state.v.size(); ++i)
       if (of.mesh.node_bodies[i] == body)
         state.v[i] += of_node(i, track.velocity_at(place_of(of.mesh.nodes[i][0])));

@@ -66,7 +66,7 @@ namespace tread
   private:
     TrackBeam::Place place_of(const double x) const
     {
-      return track.place(x - begin);
+      return track.place(x - whole.begin);
     }
     /// Displacement or velocity of a node from those of the beam at its place.
     Vector3 of_node(const unsigned int node, const TrackBeam::AtSection &beam) const
@@ -76,10 +76,10 @@ namespace tread
     TrackBeam::AtSection since_start(const TrackBeam::Place &place) const;
 
     const PartOf                  of;
+    const BeamUnderRail           whole; ///< with what the cells have
     const unsigned int            body;
     std::vector<unsigned int>     nodes;
     std::vector<TrackBeam::Place> places; ///< of these nodes
-    const double                  begin;
     const double                  bottom; ///< least z of the nodes, m
     TrackBeam                     track;
     std::vector<double>           rest; ///< up and slope of the beam's nodes under the load at the start
