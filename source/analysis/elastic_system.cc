@@ -101,7 +101,7 @@ namespace tread
       for (unsigned int c = 0; c < n; ++c)
         {
           Mesh::Cell cell;
-          cell.body = 0;
+          cell.body = cell.material = 0;
           for (unsigned int a = 0; a < 8; ++a)
             {
               cell.nodes[a] = 8 * c + a;
@@ -164,7 +164,7 @@ namespace tread
         {
           const auto volume = HexahedronIntegrals(mesh.corners(c)).node_volume;
           for (unsigned int a = 0; a < 8; ++a)
-            mass[mesh.cells[c].nodes[a]][0] += materials[mesh.cells[c].body].density * volume[a];
+            mass[mesh.cells[c].nodes[a]][0] += materials[mesh.cells[c].material].density * volume[a];
         }
     mesh.condense_hanging_nodes(mass.data());
     mesh.shared_nodes.sum(mass.data());
@@ -365,47 +365,46 @@ namespace tread
   {
     const auto element = element_named(parameters.element).make(parameters);
     Mesh       loose   = mesh;
-    for (unsigned int body = 0; body < materials.size(); ++body)
-      if (with_body[body])
-        {
-          std::vector<unsigned int> cells;
-          for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-            if (mesh.cells[c].body == body)
-              cells.push_back(c);
-          for (std::size_t first = 0; first < cells.size(); first += cells_at_once)
-            {
-              std::vector<std::array<dealii::Point<3>, 8>> corners;
-              for (std::size_t k = first; k < std::min(cells.size(), first + cells_at_once); ++k)
-                corners.push_back(mesh.corners(cells[k]));
-              const std::vector<CellMatrix> matrices =
-                cell_stiffness(loose, corners, *element, materials[body]);
-              for (unsigned int k = 0; k < corners.size(); ++k)
-                {
-                  std::array<LinearForm, 24> forms;
-                  std::vector<PetscInt>      rows;
-                  for (unsigned int i = 0; i < 24; ++i)
-                    {
-                      expand(mesh.cells[cells[first + k]].nodes[i / 3], i % 3, 1., forms[i]);
-                      for (const Term &term : forms[i])
-                        rows.push_back(term.unknown);
-                    }
-                  std::sort(rows.begin(), rows.end());
-                  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-                  std::vector<double> block(rows.size() * rows.size(), 0.);
-                  const auto          place = [&](const Term &term) {
-                    return std::lower_bound(rows.begin(), rows.end(), term.unknown) - rows.begin();
-                  };
-                  for (unsigned int i = 0; i < 24; ++i)
-                    for (unsigned int j = 0; j < 24; ++j)
-                      for (const Term &row : forms[i])
-                        for (const Term &column : forms[j])
-                          block[place(row) * rows.size() + place(column)] +=
-                            row.weight * column.weight * matrices[k][i][j];
-                  check_petsc(MatSetValues(matrix, rows.size(), rows.data(), rows.size(), rows.data(),
-                                           block.data(), ADD_VALUES));
-                }
-            }
-        }
+    for (unsigned int material = 0; material < materials.size(); ++material)
+      {
+        std::vector<unsigned int> cells;
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (with_body[mesh.cells[c].body] && mesh.cells[c].material == material)
+            cells.push_back(c);
+        for (std::size_t first = 0; first < cells.size(); first += cells_at_once)
+          {
+            std::vector<std::array<dealii::Point<3>, 8>> corners;
+            for (std::size_t k = first; k < std::min(cells.size(), first + cells_at_once); ++k)
+              corners.push_back(mesh.corners(cells[k]));
+            const std::vector<CellMatrix> matrices =
+              cell_stiffness(loose, corners, *element, materials[material]);
+            for (unsigned int k = 0; k < corners.size(); ++k)
+              {
+                std::array<LinearForm, 24> forms;
+                std::vector<PetscInt>      rows;
+                for (unsigned int i = 0; i < 24; ++i)
+                  {
+                    expand(mesh.cells[cells[first + k]].nodes[i / 3], i % 3, 1., forms[i]);
+                    for (const Term &term : forms[i])
+                      rows.push_back(term.unknown);
+                  }
+                std::sort(rows.begin(), rows.end());
+                rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+                std::vector<double> block(rows.size() * rows.size(), 0.);
+                const auto          place = [&](const Term &term) {
+                  return std::lower_bound(rows.begin(), rows.end(), term.unknown) - rows.begin();
+                };
+                for (unsigned int i = 0; i < 24; ++i)
+                  for (unsigned int j = 0; j < 24; ++j)
+                    for (const Term &row : forms[i])
+                      for (const Term &column : forms[j])
+                        block[place(row) * rows.size() + place(column)] +=
+                          row.weight * column.weight * matrices[k][i][j];
+                check_petsc(MatSetValues(matrix, rows.size(), rows.data(), rows.size(), rows.data(),
+                                         block.data(), ADD_VALUES));
+              }
+          }
+      }
   }
 
 

@@ -89,7 +89,7 @@ namespace tread
       if (face.boundary == Boundary::contact)
         at_surface[face.cell] = true;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      if (mesh.cells[c].body == body)
+      if (mesh.cells[c].material == body)
         {
           const auto             corners = mesh.corners(c);
           const dealii::Point<3> centre  = centre_of(corners);

@@ -125,7 +125,7 @@ namespace tread
     for (const unsigned int i : nodes)
       needs_node[i] = true;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      if (mesh.cells[c].body == body)
+      if (mesh.cells[c].material == body)
         {
           const auto             corners = mesh.corners(c);
           const dealii::Point<3> centre  = centre_of(corners);

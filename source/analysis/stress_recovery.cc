@@ -104,7 +104,7 @@ namespace tread
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         {
           const auto &nodes = mesh.cells[c].nodes;
-          if (mesh.cells[c].body != extent.body || has_edges[c] ||
+          if (mesh.cells[c].material != extent.body || has_edges[c] ||
               std::none_of(nodes.begin(), nodes.end(), [&](const unsigned int i) { return chosen[i]; }))
             continue;
           const auto            corners = mesh.corners(c);

@@ -24,6 +24,21 @@ namespace tread
     using Triangulation = dealii::Triangulation<3>; // each rank has all of it, unless it is
     using InParts       = dealii::parallel::distributed::Triangulation<3>;
 
+    /// The number of a cell's body. deal.II keeps one number with each cell and its children, from which body
+    /// and material follow.
+    template <typename Cell>
+    unsigned int body_of(const Cell &cell, const std::vector<Body> &bodies)
+    {
+      return cell->material_id() % bodies.size();
+    }
+
+    template <typename Cell>
+    unsigned int material_of(const Cell &cell, const std::vector<Body> &bodies)
+    {
+      const unsigned int other = cell->material_id() / bodies.size();
+      return other == 0 ? body_of(cell, bodies) : bodies.size() - 1 + other;
+    }
+
     void make_coarse_mesh(Triangulation &triangulation, const std::vector<Body> &bodies)
     {
       std::vector<dealii::Point<3>>    vertices;
@@ -36,7 +51,7 @@ namespace tread
             {
               for (unsigned int &v : cell.vertices)
                 v += offset;
-              cell.material_id = b;
+              cell.material_id = b + bodies.size() * cell.material_id;
               cell.manifold_id = b;
               cells.push_back(cell);
             }
@@ -46,9 +61,9 @@ namespace tread
 
       for (const auto &cell : triangulation.cell_iterators_on_level(0))
         {
-          const Body &body = bodies[cell->material_id()];
+          const Body &body = bodies[body_of(cell, bodies)];
           if (body.manifold)
-            cell->set_all_manifold_ids(cell->material_id());
+            cell->set_all_manifold_ids(body_of(cell, bodies));
           for (const unsigned int f : cell->face_indices())
             if (cell->at_boundary(f))
               cell->face(f)->set_boundary_id(
@@ -78,7 +93,7 @@ namespace tread
           for (const auto &cell : triangulation.active_cell_iterators())
             if (cell->is_locally_owned() && !cell->user_flag_set())
               {
-                const Body &body   = bodies[cell->material_id()];
+                const Body &body   = bodies[body_of(cell, bodies)];
                 double      wanted = body.wanted_cell_size(cell->center());
                 for (const unsigned int v : cell->vertex_indices())
                   wanted = std::min(wanted, body.wanted_cell_size(cell->vertex(v)));
@@ -133,7 +148,7 @@ namespace tread
     template <typename Cell>
     dealii::Point<3> vertex_in_space(const Cell &cell, const unsigned int v, const std::vector<Body> &bodies)
     {
-      const Body &body = bodies[cell->material_id()];
+      const Body &body = bodies[body_of(cell, bodies)];
       return body.to_space ? body.to_space(cell->vertex(v)) : cell->vertex(v);
     }
 
@@ -156,7 +171,7 @@ namespace tread
         std::array<dealii::Point<3>, Mesh::nodes_per_cell> corners;
         for (unsigned int v = 0; v < corners.size(); ++v)
           corners[v] = vertex_in_space(cell, v, bodies);
-        return cost(cell->material_id(), corners, likely_level(cell));
+        return cost(body_of(cell, bodies), corners, likely_level(cell));
       }
 
     private:
@@ -279,7 +294,8 @@ namespace tread
           {
             cell->get_dof_indices(dofs);
             Mesh::Cell c;
-            c.body                   = cell->material_id();
+            c.body                   = body_of(cell, bodies);
+            c.material               = material_of(cell, bodies);
             c.address                = CellAddress(coarse_number(cell), cell->id().get_child_indices());
             const unsigned int level = likely_level(cell);
             for (unsigned int v = 0; v < Mesh::nodes_per_cell; ++v)

@@ -557,14 +557,74 @@ namespace tread
         return read_ls_dyna(read_lines(file));
       throw TextError(0, "is of no format that is read: .msh of Gmsh, .inp of Abaqus, .k or .key of LS-DYNA");
     }
+
+    /// Cells of the volumes of this name have this other material. @throws TextError
+    void give_material(MeshFile &mesh, const std::string &name, const unsigned int number)
+    {
+      bool        is_there = false;
+      std::string all;
+      for (const MeshVolume &volume : mesh.volumes)
+        {
+          if (!volume.cells.empty())
+            all += (all.empty() ? "'" : ", '") + volume.name + "'";
+          if (mesh_words::lower(volume.name) != mesh_words::lower(name))
+            continue;
+          for (const unsigned int c : volume.cells)
+            {
+              dealii::types::material_id &id = mesh.cells[c].material_id;
+              if (id != 0 && id != number)
+                throw TextError(0, "has a hexahedron in '" + volume.name +
+                                     "' to which 'Rail/Materials' gives two "
+                                     "materials, by another volume as well");
+              id       = number;
+              is_there = true;
+            }
+        }
+      if (!is_there)
+        throw TextError(0, "has no hexahedra in a volume '" + name +
+                             "', to which 'Rail/Materials' gives a material; " +
+                             (all.empty() ? "its volumes have no names" : "it has " + all));
+    }
+
+    /// Hexahedra to which the file gives unlike materials have unlike ones. @throws TextError
+    void check_materials(const MeshFile &mesh)
+    {
+      std::map<unsigned int, const MeshVolume *> first;
+      for (const MeshVolume &volume : mesh.volumes)
+        if (!volume.material.empty())
+          for (const unsigned int c : volume.cells)
+            if (const MeshVolume &other =
+                  *first.try_emplace(mesh.cells[c].material_id, &volume).first->second;
+                other.material != volume.material)
+              throw TextError(std::max(volume.line, other.line),
+                              "gives the material '" + (volume.line > other.line ? volume : other).material +
+                                "' to hexahedra, and line " +
+                                std::to_string(std::min(volume.line, other.line)) + " gives '" +
+                                (volume.line > other.line ? other : volume).material +
+                                "': " + mesh_words::one_steel);
+    }
   } // namespace
 
 
-  MeshFile read_mesh_file(const std::string &file, const double unit)
+  MeshVolume &MeshInput::volume(const std::string &name)
+  {
+    const auto found =
+      std::find_if(volumes.begin(), volumes.end(), [&](const MeshVolume &v) { return v.name == name; });
+    return found != volumes.end() ? *found : volumes.emplace_back(MeshVolume{name, {}, {}, 0});
+  }
+
+
+  MeshFile read_mesh_file(const std::string              &file,
+                          const double                    unit,
+                          const std::vector<std::string> &other_materials)
   {
     try
       {
-        return CheckedMesh(read_as_its_ending_says(file), file, unit).mesh;
+        MeshFile mesh = CheckedMesh(read_as_its_ending_says(file), file, unit).mesh;
+        for (unsigned int k = 0; k < other_materials.size(); ++k)
+          give_material(mesh, other_materials[k], k + 1);
+        check_materials(mesh);
+        return mesh;
       }
     catch (const TextError &error)
       {

@@ -306,7 +306,7 @@ namespace tread
           {
             mesh.hexahedra.push_back({mesh_words::numbers<8>(words, in.number()), in.number()});
             for (const long group : groups)
-              note_volume(group);
+              volume(group).cells.push_back(mesh.hexahedra.size() - 1);
             return;
           }
         for (const long group : groups)
@@ -330,12 +330,10 @@ namespace tread
                            [](const auto &name) { return name.first.first == 2; });
       }
 
-      void note_volume(const long group)
+      MeshVolume &volume(const long group)
       {
-        const auto        found = names.find({3, group});
-        const std::string name  = found != names.end() ? found->second.first : std::to_string(group);
-        if (std::find(mesh.volumes.begin(), mesh.volumes.end(), name) == mesh.volumes.end())
-          mesh.volumes.push_back(name);
+        const auto found = names.find({3, group});
+        return mesh.volume(found != names.end() ? found->second.first : std::to_string(group));
       }
 
       GmshLines   in;

@@ -119,11 +119,16 @@ namespace tread
               take(text);
           }
         check_complete();
-        check_one_material();
         for (const Surface &surface : surfaces)
           add_surface(surface);
         for (const auto &[name, set] : elements_of)
           add_set(name, set);
+        for (const Section &section : sections)
+          {
+            MeshVolume &volume = mesh.volume(section.set);
+            volume.material    = section.material;
+            volume.line        = section.line;
+          }
         return std::move(mesh);
       }
 
@@ -215,25 +220,6 @@ namespace tread
           }
         else if (!is_in_block)
           refuse_keyword(line, now.name, mesh_foreign::unknown);
-      }
-
-      /// All hexahedra have the steel of the scene: a mesh of several materials would be another rail.
-      void check_one_material() const
-      {
-        const Section *first = nullptr;
-        for (const Section &section : sections)
-          {
-            const auto set = elements_of.find(section.set);
-            if (set != elements_of.end() &&
-                std::none_of(set->second.members.begin(), set->second.members.end(),
-                             [&](const long number) { return elements.hexahedra.count(number) > 0; }))
-              continue;
-            if (first && first->material != section.material)
-              throw TextError(section.line, "gives the material '" + section.material +
-                                              "' to hexahedra, and line " + std::to_string(first->line) +
-                                              " gives '" + first->material + "': " + mesh_words::one_steel);
-            first = &section;
-          }
       }
 
       void check_type(const std::string &type)
@@ -454,7 +440,13 @@ namespace tread
                                       "' has hexahedra, and its name is that of a boundary: name faces, by "
                                       "*SURFACE, a set of nodes or of quadrilaterals");
         if (has_volume)
-          return mesh.volumes.push_back(name);
+          {
+            std::vector<unsigned int> &cells = mesh.volume(name).cells;
+            for (const long number : set.members)
+              if (const auto found = elements.hexahedra.find(number); found != elements.hexahedra.end())
+                cells.push_back(found->second);
+            return;
+          }
         if (!set.is_named && !is_known_boundary(name))
           return;
         for (const long number : set.members)
@@ -519,10 +511,18 @@ namespace tread
                      title != titles.end() ? title->second.second : quadrilateral.line)
               .faces.push_back(quadrilateral);
           }
-        for (const auto &[part, title] : titles)
-          if (std::find(parts.begin(), parts.end(), part) != parts.end())
-            mesh.volumes.push_back(title.first);
-        check_one_material();
+        for (const auto &[part, cells] : cells_of_part)
+          {
+            const auto  title = titles.find(part);
+            MeshVolume &volume =
+              mesh.volume(title != titles.end() ? title->second.first : "part " + std::to_string(part));
+            volume.cells.insert(volume.cells.end(), cells.begin(), cells.end());
+            if (const auto given = materials.find(part); given != materials.end() && given->second.first != 0)
+              {
+                volume.material = std::to_string(given->second.first);
+                volume.line     = given->second.second;
+              }
+          }
         return std::move(mesh);
       }
 
@@ -594,23 +594,6 @@ namespace tread
           meanings += (meanings.empty() ? "" : ", ") + std::to_string(number) + " as '" +
                       mesh_words::name_of_number(number) + "'";
         mesh.doubts.push_back("has sets without titles, which are taken by their numbers: " + meanings);
-      }
-
-      /// All hexahedra have the steel of the scene.
-      void check_one_material() const
-      {
-        long first = 0, of_part = 0;
-        for (const long part : parts)
-          if (const auto found = materials.find(part); found != materials.end() && found->second.first != 0)
-            {
-              if (first != 0 && found->second.first != first)
-                throw TextError(found->second.second,
-                                "gives the material " + std::to_string(found->second.first) +
-                                  " to hexahedra, and part " + std::to_string(of_part) + " has " +
-                                  std::to_string(first) + ": " + mesh_words::one_steel);
-              first   = found->second.first;
-              of_part = part;
-            }
       }
 
       void take(const std::string &text)
@@ -706,15 +689,14 @@ namespace tread
         const long number = mesh_words::whole(words[0], line), part = mesh_words::whole(words[1], line);
         elements.check_free(number, line);
         elements.hexahedra[number] = mesh.hexahedra.size();
-        if (std::find(parts.begin(), parts.end(), part) == parts.end())
-          parts.push_back(part);
+        cells_of_part[part].push_back(mesh.hexahedra.size());
         mesh.hexahedra.push_back({mesh_words::numbers<8>({words.begin() + 2, words.end()}, line), line});
       }
 
       MeshInput                                              mesh;
       ElementsByNumber                                       elements;
-      std::vector<std::pair<long, MeshInput::Quadrilateral>> shells;    // and their parts
-      std::vector<long>                                      parts;     // of hexahedra
+      std::vector<std::pair<long, MeshInput::Quadrilateral>> shells; // and their parts
+      std::map<long, std::vector<unsigned int>>              cells_of_part;
       std::map<long, std::pair<std::string, unsigned int>>   titles;    // of parts, and their lines
       std::map<long, std::pair<long, unsigned int>>          materials; // of parts, and their lines
       std::vector<std::pair<long, unsigned int>> numbered; // sets without a title, and their lines

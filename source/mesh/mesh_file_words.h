@@ -18,9 +18,9 @@ namespace tread::mesh_words
   inline constexpr const char *make_first_order =
     "only hexahedra with 8 nodes are read; mesh with first order (Gmsh: Mesh.ElementOrder = 1)";
 
-  inline constexpr const char *one_steel = "the whole rail has the steel of section 'Rail'; leave out what "
-                                           "is of another one, or give all hexahedra the "
-                                           "same";
+  inline constexpr const char *one_steel =
+    "both have the steel of section 'Rail' or one and the same of "
+    "'Rail/Materials'; give what is of another one there, or leave it out";
 
   inline std::string trimmed(const std::string &text)
   {

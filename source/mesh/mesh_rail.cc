@@ -239,6 +239,19 @@ namespace tread
         "let sizes change by less than a factor of %g from face to face",
         1e3 * p[0], 1e3 * p[1], 1e3 * lengths.second, 1e3 * lengths.first, most);
     }
+
+    std::string doubt_about_material(const MeshFile &mesh, const std::vector<CoarseSurfaceCell> &cells)
+    {
+      const std::size_t n = std::count_if(cells.begin(), cells.end(), [&](const CoarseSurfaceCell &cell) {
+        return mesh.cells[cell.face->cell].material_id != 0;
+      });
+      return 2 * n <= cells.size()
+               ? ""
+               : format("%zu of %zu faces of the running surface under the path are of "
+                        "'Rail/Materials': half-space answers, predicted creepage and yielding are "
+                        "of the rail's own steel",
+                        n, cells.size());
+    }
   } // namespace
 
 
@@ -250,8 +263,8 @@ namespace tread
              cell.high[1] > under_path.y_begin && cell.low[1] < under_path.y_end;
     });
     std::vector<std::string> doubts;
-    for (const std::string &doubt :
-         {doubt_about_edges(mesh, cells, finest_cell_size), doubt_about_jumps(mesh, cells)})
+    for (const std::string &doubt : {doubt_about_edges(mesh, cells, finest_cell_size),
+                                     doubt_about_jumps(mesh, cells), doubt_about_material(mesh, cells)})
       if (!doubt.empty())
         doubts.push_back("'" + mesh.file + "': " + doubt);
     return doubts;

@@ -301,6 +301,13 @@ namespace tread
       of_cells.push_back({"equivalent_plastic_strain_percent", [&](const unsigned int c) {
                             return strain.empty() ? 0. : 100. * strain[c];
                           }});
+    if (dealii::Utilities::MPI::logical_or(
+          std::any_of(mesh.cells.begin(), mesh.cells.end(),
+                      [](const Mesh::Cell &c) { return !c.has_own_material(); }),
+          comm))
+      of_cells.push_back({"material", [&](const unsigned int c) {
+                            return double(mesh.cells[c].material);
+                          }});
     std::vector<unsigned int> cells(mesh.cells.size());
     std::iota(cells.begin(), cells.end(), 0u);
     add_fields(picture, points.nodes, true, of_nodes, stress_fields(stresses, 1));

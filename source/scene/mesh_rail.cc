@@ -80,7 +80,10 @@ namespace tread
     std::shared_ptr<MeshRail> own;
     try
       {
-        own            = std::make_shared<MeshRail>(read_mesh_file(located(rail.mesh_file), unit));
+        std::vector<std::string> volumes;
+        for (const auto &other : rail.volume_materials())
+          volumes.push_back(other.volume);
+        own            = std::make_shared<MeshRail>(read_mesh_file(located(rail.mesh_file), unit, volumes));
         made.rail_mesh = own;
         require_size_of_rail(*made.rail_mesh, rail.mesh_unit);
       }

@@ -15,6 +15,8 @@ namespace tread
       list.insert(
         list.end(), scene.support_positions().size(),
         {scene.track.sleeper_young_modulus, scene.track.sleeper_poisson_ratio, scene.track.sleeper_density});
+    for (const auto &other : scene.rail.volume_materials())
+      list.push_back(other.material);
     return list;
   }
 

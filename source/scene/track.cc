@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/csv_table.h>
+#include <tread/mesh/mesh_rail.h>
 #include <tread/scene/scene.h>
 #include <tread/track/track_beam.h>
 
@@ -219,17 +220,18 @@ namespace tread
     BeamUnderRail beam;
     beam.section         = section(track.beam_bending_stiffness, track.beam_shear_stiffness, track.beam_mass);
     beam.axial_stiffness = track.beam_mass * steel.young_modulus / steel.density;
-    beam.cells           = steel;
     beam.track           = track_beam_alike();
     beam.track.gravity   = 0.; // it carries nothing but the cells and the wheel
     // So many spans go on beyond both ends of the piece.
+    const MeshFile::Range piece =
+      rail_mesh() ? rail_mesh()->mesh.range(0) : MeshFile::Range{rail_begin(), rail_end()};
     const int beyond         = rail.spans_beyond - 1,
-              first          = std::floor((rail_begin() - track.support_0) / track.sleeper_spacing) - beyond,
-              last           = std::ceil((rail_end() - track.support_0) / track.sleeper_spacing) + beyond;
+              first          = std::floor((piece.begin - track.support_0) / track.sleeper_spacing) - beyond,
+              last           = std::ceil((piece.end - track.support_0) / track.sleeper_spacing) + beyond;
     beam.track.n_spans       = last - first + 1;
     beam.track.first_support = 0.5 * track.sleeper_spacing;
     beam.begin               = track.support_0 + (first - 0.5) * track.sleeper_spacing;
-    beam.track.loaded        = {rail_begin() - beam.begin, rail_end() - beam.begin, {}};
+    beam.track.loaded        = {piece.begin - beam.begin, piece.end - beam.begin, {}};
     for (const BeamRow &row : beam_rows)
       beam.track.stretches.push_back(
         {row.x - beam.begin, section(row.bending_stiffness, row.shear_stiffness, row.mass)});
@@ -308,7 +310,7 @@ namespace tread
     require(!rail.is_meshed(),
             "'Track/Foundation' " + name_of(track.foundation) +
               " needs a rail with a foot of the program's own: with 'Rail/Shape' mesh it must be "
-              "rigid or co-running");
+              "rigid, co-running or beam");
     require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
                                              " needs a rail with a foot: 'Rail/Shape' cannot be head");
     track.check();

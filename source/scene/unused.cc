@@ -87,7 +87,7 @@ namespace tread
        rail.is_block(),
        "block"},
       {"Rail", {"Slices place (mm)", "Slices y (mm)", "Slices z (mm)"}, "Shape", rail.is_sliced(), "slices"},
-      {"Rail", {"Mesh unit"}, "Shape", rail.is_meshed(), "mesh"},
+      {"Rail", {"Mesh unit", "Materials"}, "Shape", rail.is_meshed(), "mesh"},
       {"Rail",
        {"Begin (mm)", "Length (mm)", "Margin (mm)"},
        "Shape",

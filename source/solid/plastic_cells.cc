@@ -42,7 +42,8 @@ namespace tread
       {
         for (const unsigned int i : mesh.cells[c].nodes)
           centers[c] += mesh.nodes[i] / 8.;
-        zone_of_cell[c] = zone_at(zones, mesh.cells[c].body, centers[c]);
+        if (mesh.cells[c].has_own_material())
+          zone_of_cell[c] = zone_at(zones, mesh.cells[c].body, centers[c]);
       }
 
     std::size_t size = 0;

@@ -41,7 +41,7 @@ namespace tread
     for (unsigned int c = 0; c < n_cells; ++c)
       {
         frequencies[c] = element->highest_frequency_bound(
-          HexahedronIntegrals(mesh.corners(c)), materials[mesh.cells[c].body],
+          HexahedronIntegrals(mesh.corners(c)), materials[mesh.cells[c].material],
           surface_layer.stiffening_of(c, parameters.surface_damping));
         if (const double limit = parameters.highest_frequency; limit > 0. && frequencies[c] > limit)
           {
@@ -56,16 +56,17 @@ namespace tread
     for (unsigned int c = 0; c < n_cells; ++c)
       levels_of_cells[c] = level_up_to(parameters.max_level, c);
 
-    for (unsigned int body = 0; body < materials.size(); ++body)
+    for (unsigned int material = 0; material < materials.size(); ++material)
       for (unsigned int level = 0; level <= parameters.max_level; ++level)
         {
           std::vector<unsigned int> cells;
           for (unsigned int c = 0; c < n_cells; ++c)
-            if (mesh.cells[c].body == body && levels_of_cells[c] == level && !plastic_cells.contains(c))
+            if (mesh.cells[c].material == material && levels_of_cells[c] == level &&
+                !plastic_cells.contains(c))
               cells.push_back(c);
           if (cells.empty())
             continue;
-          for (auto &group : element->make_groups(mesh, materials[body], cells))
+          for (auto &group : element->make_groups(mesh, materials[material], cells))
             groups.push_back({level, std::move(group)});
         }
   }
@@ -86,7 +87,7 @@ namespace tread
       {
         masses[c] = HexahedronIntegrals(mesh.corners(c)).node_volume;
         for (double &mass : masses[c])
-          mass *= materials[mesh.cells[c].body].density;
+          mass *= materials[mesh.cells[c].material].density;
       }
     return masses;
   }

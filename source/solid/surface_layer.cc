@@ -100,11 +100,11 @@ namespace tread
             std::abs(up * *edge_2) < std::sqrt(1. - most_sheared * most_sheared) * edge_2->norm())
           continue;
         const std::optional<HourglassWeights> of_box =
-          weights[mesh.cells[c].body].of_box({{edge_0->norm(), edge_1->norm(), std::abs(up * *edge_2)}});
+          weights[mesh.cells[c].material].of_box({{edge_0->norm(), edge_1->norm(), std::abs(up * *edge_2)}});
         if (!of_box)
           continue;
         SurfaceCell cell;
-        cell.stiffness = hourglass_stiffness(HexahedronIntegrals(corners), materials[mesh.cells[c].body],
+        cell.stiffness = hourglass_stiffness(HexahedronIntegrals(corners), materials[mesh.cells[c].material],
                                              hourglass_coefficient);
         const auto         along  = orthogonal(*edge_0, *edge_1);
         const unsigned int own[3] = {first, second, normal};

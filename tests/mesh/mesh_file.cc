@@ -125,7 +125,8 @@ namespace
         check.below(what + "height of the contact surface, mm", 1e3 * contact_z, 1e-9);
         check.relative(what + "length, mm", 1e3 * (mesh.range(0).end - mesh.range(0).begin), 20., 1e-12);
         check.that(what + "volume's name",
-                   mesh.volumes.size() >= 1 && (mesh.volumes[0] == "rail steel" || mesh.volumes[0] == "all"));
+                   mesh.volumes.size() >= 1 &&
+                     (mesh.volumes[0].name == "rail steel" || mesh.volumes[0].name == "all"));
         double volume = 0.;
         for (const auto &cell : mesh.cells)
           volume += dealii::GridTools::cell_measure<3>(mesh.vertices, cell.vertices);
@@ -179,6 +180,39 @@ namespace
   {
     std::string name, file, from, to, words;
   };
+
+  /// One of the two hexahedra in a volume of its own, to which the file gives another material.
+  void check_materials(tests::Check &check, const tests::TemporaryFolder &folder)
+  {
+    const std::string gmsh = replaced(replaced(replaced(gmsh_old(), "$PhysicalNames\n5", "$PhysicalNames\n6"),
+                                               "\"rail steel\"\n", "\"rail steel\"\n3 8 \"End post\"\n"),
+                                      "9 5 2 7 7", "9 5 2 8 8");
+    const std::string inp =
+      replaced(abaqus(), "*Material, name=steel",
+               "*Elset, elset=first\n1\n*Solid section, elset=first, material=steel\n*Elset, elset=\"End "
+               "post\"\n2\n*Solid section, elset=\"end post\", material=nylon\n*Material, name=steel");
+    const std::string k = replaced(
+      replaced(ls_dyna(), "       2       1\n       2       3", "       2       3\n       2       3"),
+      "*ELEMENT_SOLID", "*PART\nend post\n         3         1         8\n*ELEMENT_SOLID");
+    const auto refusal = [&](const std::string &name, const std::vector<std::string> &others) {
+      return tests::complaint<InputError>([&] { read_mesh_file(folder.path + "/" + name, 1e-3, others); });
+    };
+    const auto says = [&](const std::string &text, const std::string &words) {
+      check.that(text, text.find(words) != text.npos);
+    };
+    for (const auto &[name, text] :
+         {std::pair("two.msh", gmsh), std::pair("two.inp", inp), std::pair("two.k", k)})
+      {
+        const MeshFile mesh = read_mesh_file(folder.write(name, text), 1e-3, {"End Post"});
+        check.that(std::string(name) + ": the second hexahedron has the other material",
+                   mesh.cells[0].material_id == 0 && mesh.cells[1].material_id == 1);
+        says(refusal(name, {"rubber"}), "has no hexahedra in a volume 'rubber'");
+      }
+    says(refusal("two.inp", {"end post", "all"}), "two materials");
+    says(refusal("two.inp", {}), "gives the material 'nylon' to hexahedra, and line");
+    says(refusal("two.k", {}), "gives the material '8' to hexahedra, and line");
+    says(refusal("two.inp", {"all"}), "one and the same of 'Rail/Materials'");
+  }
 
   void check_refused(tests::Check &check, const tests::TemporaryFolder &folder)
   {
@@ -293,8 +327,7 @@ namespace
       {"Abaqus: two materials", inp, "*Material, name=steel",
        "*Elset, elset=first\n1\n*Solid section, elset=first, material=steel\n*Elset, "
        "elset=second\n2\n*Solid section, elset=second, material=\"Rubber, soft\"\n*Material, name=steel",
-       "gives the material 'rubber, soft' to hexahedra, and line 35 gives 'steel': the whole rail has the "
-       "steel of "
+       "gives the material 'rubber, soft' to hexahedra, and line 35 gives 'steel': both have the steel of "
        "section 'Rail'"},
       {"LS-DYNA: tied nodes", k, "*MAT_ELASTIC", "*CONSTRAINED_NODE_SET",
        "*CONSTRAINED_NODE_SET is not read"},
@@ -312,8 +345,7 @@ namespace
       {"LS-DYNA: unknown", k, "*MAT_ELASTIC", "*MAGIC", "*MAGIC is not read: it is not known here"},
       {"LS-DYNA: fields of ten", k, "*KEYWORD", "*KEYWORD I10=Y", "write fields of the usual width"},
       {"LS-DYNA: two materials", k, "       2       1\n       2       3",
-       "       2       3\n       2       3",
-       "gives the material 8 to hexahedra, and part 1 has 1: the whole rail has the steel"},
+       "       2       3\n       2       3", "gives the material '8' to hexahedra, and line "},
       {"LS-DYNA: set without a title beside others", k, "*SET_SEGMENT_TITLE\nsymmetry\n", "*SET_SEGMENT\n",
        "has a set 4 without a title beside 'support', which has one: is it the boundary 'symmetry'?"},
       {"LS-DYNA: another file", k, "*MAT_ELASTIC", "*INCLUDE\n", "*INCLUDE is not read"},
@@ -652,6 +684,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   const tests::TemporaryFolder folder;
   check_formats(check, folder);
   check_refused(check, folder);
+  check_materials(check, folder);
   check_pieces(check, folder);
   check_named(check, folder);
   check_alignment(check, folder);

@@ -424,6 +424,80 @@ namespace
   }
 
 
+  void check_beam_under_rail(tests::Check &check, const TemporaryFolder &folder)
+  {
+    const std::string names      = "x_mm,bending_stiffness_MN_m2,shear_stiffness_MN,mass_kg_per_m\n";
+    const auto        scene_with = [&](const std::string &rows, const std::string &columns) {
+      return scene_of({"Rail/Shape=block", "Track/Foundation=beam",
+                       "Track/Beam bending stiffness (MN m2)=5.5", "Track/Beam shear stiffness (MN)=210",
+                       "Track/Beam mass (kg per m)=55", "Track/Sleeper spacing (m)=0.61",
+                       "Track/Support 0 (mm)=290", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0",
+                       "Rail/Spans beyond=7"},
+                             {"Track/Beam file=" + folder.write("beam.csv", columns + rows)});
+    };
+    const auto          scene = scene_with("-30,7.3,547,94.5\n-3,0.93,297,34.3\n33,5.5,210,55\n", names);
+    const BeamUnderRail beam  = scene->beam_under_rail();
+    check.relative("beam: bending stiffness, MN m2", 1e-6 * beam.section.bending_stiffness, 5.5, round_off);
+    check.relative("beam: shear stiffness, MN", 1e-6 * beam.section.shear_stiffness, 210., round_off);
+    check.relative("beam: mass, kg/m", beam.section.mass, 55., round_off);
+    const double inertia =
+      scene->rail.material.elastic().density / scene->rail.material.elastic().young_modulus;
+    check.relative("beam: rotary inertia, kg m", beam.section.rotary_inertia, 5.5e6 * inertia, round_off);
+    check.relative("beam: begins halfway between supports", 1e3 * (beam.begin + beam.track.first_support),
+                   290. - 610. * std::round((290. - 1e3 * (beam.begin + beam.track.first_support)) / 610.),
+                   1e-9);
+    check.absolute("stretches of the beam", beam.track.stretches.size(), 3., 0.);
+    const double rows[3][4] = {{-30., 7.3, 547., 94.5}, {-3., 0.93, 297., 34.3}, {33., 5.5, 210., 55.}};
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, beam.track.stretches.size()); ++i)
+      {
+        const BeamStretch &stretch = beam.track.stretches[i];
+        check.relative("stretch: from, mm", 1e3 * (beam.begin + stretch.from), rows[i][0], 1e-9);
+        check.relative("stretch: bending stiffness, MN m2", 1e-6 * stretch.section.bending_stiffness,
+                       rows[i][1], round_off);
+        check.relative("stretch: shear stiffness, MN", 1e-6 * stretch.section.shear_stiffness, rows[i][2],
+                       round_off);
+        check.relative("stretch: mass, kg/m", stretch.section.mass, rows[i][3], round_off);
+        check.relative("stretch: rotary inertia, kg m", stretch.section.rotary_inertia,
+                       1e6 * rows[i][1] * inertia, round_off);
+      }
+    const auto refused = [&](const std::string &rows, const std::string &words, const std::string &columns) {
+      const std::string text = tests::complaint<InputError>([&] { scene_with(rows, columns); });
+      check.that("refused: " + text, text.find(words) != text.npos);
+    };
+    refused("0,7,547,94\n-3,7,547,94\n", "row 2: x_mm -3 must be at least a millimetre behind", names);
+    refused("0,7e6,547,94\n", "row 1: bending_stiffness_MN_m2 7000000 is no value of a rail", names);
+    refused("0,7,0,94\n", "row 1: shear_stiffness_MN 0 is no value of a rail", names);
+    refused("90000,7,547,94\n", "lies beyond the beam, which goes from", names);
+    refused("", "has no rows", names);
+    refused("0,7,547\n", "mass_kg_per_m", "x_mm,bending_stiffness_MN_m2,shear_stiffness_MN\n");
+    refused("0,7,547,94,3\n", "has a column 'depth_mm'; it may have x_mm",
+            "x_mm,bending_stiffness_MN_m2,shear_stiffness_MN,mass_kg_per_m,depth_mm\n");
+  }
+
+  void check_volume_materials(tests::Check &check)
+  {
+    RailSection rail;
+    rail.materials  = "end post : 3:0.35:1900, rubber:0.01:0.45:1200";
+    const auto list = rail.volume_materials();
+    check.that("two volumes with materials",
+               list.size() == 2 && list[0].volume == "end post" && list[1].volume == "rubber");
+    check.relative("Young's modulus, GPa", 1e-9 * list.at(0).material.young_modulus, 3., round_off);
+    check.relative("Poisson's ratio", list.at(1).material.poisson_ratio, 0.45, round_off);
+    check.relative("density, kg/m3", list.at(0).material.density, 1900., round_off);
+    for (const auto &[text, words] :
+         {std::pair("post:3:0.35", "allowed: name of the volume:Young's modulus"),
+          std::pair(":3:0.35:1900", "allowed: name of the volume"),
+          std::pair("post:3:0.5:1900", "Poisson's ratio must be from 0 to 0.49"),
+          std::pair("post:3e9:0.3:1900", "Young's modulus (GPa) must be from"),
+          std::pair("post:3:0.3:1.9", "density (kg per m3) must be from"),
+          std::pair("post:3:0.3:1900,post:4:0.3:1900", "the volume is there twice")})
+      {
+        rail.materials         = text;
+        const std::string said = tests::complaint<InputError>([&] { rail.volume_materials(); });
+        check.that("refused: " + said, said.find(words) != said.npos);
+      }
+  }
+
   void check_track_beyond(tests::Check &check, const TemporaryFolder &folder)
   {
     // A support that differs is one of the cells' alone.
@@ -1278,6 +1352,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
   check_materials(check);
   check_plastic_zones(check);
   check_track(check, folder);
+  check_beam_under_rail(check, folder);
+  check_volume_materials(check);
   check_track_beyond(check, folder);
   check_dips(check);
   check_bumps(check, folder);

@@ -588,7 +588,7 @@ with tempfile.TemporaryDirectory() as folder:
                 dry = execute_often([scene, "--dry-run", "-s", f"Mesh/Finest cell (mm)={size}"], program)
                 check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
                 words = [line for line in dry.stdout.splitlines() if "WARNING" in line]
-                # A joint on a mesh of its own has no other track yet.
+                # A crossing is there on both tracks, side by side.
                 known = ["has detail along the rail"] + ["its mass stands for the track at low frequencies"] * (settings["Track/Foundation"] == "co-running")
                 check.that(f"{name}: sets nothing without effect", all(any(word in line for word in known) for line in words))
             # track.py rolls on one; a shorter run needs nothing but its length, whatever the defect and the position of supports.

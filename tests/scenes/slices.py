@@ -134,7 +134,7 @@ with tempfile.TemporaryDirectory() as folder:
     refused = lambda what, scene, settings, words: check.refused(what, program, scene, path("refused"), settings, words)
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
-    refused("a beam lighter than its cells", PASSAGE, [*beam, "Track/Beam mass (kg per m)=10"], ["'Track/Beam mass (kg per m)' 10", "are needed"])
+    refused("a beam lighter than its cells", PASSAGE, [*beam, "Track/Beam mass (kg per m)=10"], ["'Track/Beam mass (kg per m)' 10 at x = ", "is needed"])
     refused("a beam with a file of supports", PASSAGE, [*beam, "Track/Support file=some.csv"], ["'Track/Support file' must be empty", "all alike"])
     refused("a beam under a foot", "smooth-rolling.prm", ["Track/Foundation=beam", "Rail/Shape=full section", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0"], ["'Track/Foundation' beam", "'Rail/Shape'"])
     refused("an upright wheel", "smooth-rolling.prm", ["Rail/Shape=slices", f"Rail/Slices={path('same.csv')}"], ["'Rail/Shape' slices", "'Wheelset/Lateral shift (mm)'"])

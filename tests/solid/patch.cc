@@ -101,6 +101,72 @@ namespace
     return errors;
   }
 
+  /// A column of steel and, above, of something soft, of two bodies the second; pulled so that both have the
+  /// same stress. Without Poisson's ratio nothing bulges.
+  void two_materials_in_a_body(tests::Check &check, const bool refined)
+  {
+    using dealii::Utilities::MPI::max;
+    using dealii::Utilities::MPI::sum;
+    const std::string     name = refined ? "two materials, refined: " : "two materials: ";
+    constexpr double      h = 0.04, width = 0.04, strain = 1e-7; // m, m, of the steel
+    const ElasticMaterial steel{210e9, 0., 7800.}, soft{3e9, 0., 1900.};
+    const auto            box = [](const char *name, const double x) {
+      return tests::make_box(name, Point<3>(x, 0., 0.), Point<3>(x + width, width, 2. * h), {{2, 2, 4}});
+    };
+    Body column = box("column", 0.1);
+    for (std::size_t c = column.cells.size() / 2; c < column.cells.size(); ++c)
+      column.cells[c].material_id = 1;
+    if (refined)
+      tests::refine_near(column, Point<3>(0.1, 0., h), 0.2 * h, 0.2 * h);
+    const Mesh mesh(MPI_COMM_WORLD, {box("other", 0.), column});
+    for (const std::string type : {OnePoint::name, FullyIntegrated::name})
+      {
+        SolidParameters parameters;
+        parameters.element = type;
+        const Solid solid(mesh, {steel, steel, soft}, parameters);
+        NodalField  x(mesh.nodes.size()), force(mesh.nodes.size(), Vector3{});
+        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+          {
+            const Point<3> &p    = mesh.nodes[i];
+            const double    pull = strain * (std::min(p[2], h) +
+                                          std::max(0., p[2] - h) * steel.young_modulus / soft.young_modulus);
+            x[i]                 = Vector3{p[0], p[1], p[2] + (p[0] < 0.09 ? 0. : pull), 0.};
+          }
+        solid.add_internal_forces(x.data(), x.data(), force.data());
+        mesh.condense_hanging_nodes(force.data());
+        mesh.shared_nodes.sum(force.data());
+        double inner = 0., at_top = 0., mass = 0.;
+        for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
+          if (const double z = mesh.nodes[i][2]; z > 1e-6 && z < 2. * h - 1e-6)
+            inner = std::max(inner, std::sqrt(dot(force[i], force[i])));
+          else if (z > h && mesh.shared_nodes.is_owned(i))
+            at_top += force[i][2];
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          for (const double of_node : solid.cell_masses(mesh)[c])
+            mass += of_node;
+        const double pulled = strain * steel.young_modulus * width * width;
+        check.relative(name + type + ": force on its top, N", sum(at_top, mesh.comm), -pulled, 1e-6);
+        check.below(name + type + ": force within over that", max(inner, mesh.comm) / pulled, 1e-6);
+        check.relative(name + type + ": mass, kg", sum(mass, mesh.comm),
+                       width * width * h * (3. * steel.density + soft.density), 1e-12);
+      }
+    PlasticMaterial plastic;
+    plastic.yield_stress = 1e6;
+    const Solid  yielding(mesh, {steel, steel, soft}, SolidParameters(), {{1, plastic, [](const Point<3> &) {
+                                                                            return true;
+                                                                          }}});
+    unsigned int wrong = 0, n = 0;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const Point<3> centre = centre_of(mesh.corners(c));
+        const bool     may    = centre[0] > 0.09 && centre[2] < h;
+        n += may;
+        wrong += yielding.plastic().contains(c) != may;
+      }
+    check.absolute(name + "cells that yield or do not against their material", sum(wrong, mesh.comm), 0., 0.);
+    check.that(name + "some yield", sum(n, mesh.comm) > 0);
+  }
+
   /// Bricks that are bent and twisted: the mean gradient of the one-point element is that of the centre,
   /// where fully integrated cells have their stress as well.
   void stress_at_the_centre(tests::Check &check, const ElasticMaterial &material)
@@ -134,6 +200,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
 
   const ElasticMaterial material;
   stress_at_the_centre(check, material);
+  two_materials_in_a_body(check, false);
+  two_materials_in_a_body(check, true);
   for (const bool refined : {false, true})
     {
       Body body = tests::make_patch_cube(edge);

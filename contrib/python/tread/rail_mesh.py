@@ -4,7 +4,7 @@
     contrib/rail-mesh.py --output joint.msh --length 300 --width 60 --height 60 --edge 10 --gap 6 --step 0.5
 
 The bars lie along x about x = 0, where the gap is, with the crown's top at z = 0; behind the gap it is higher by the step. Without a gap there is one
-bar. Tops are named contact, bottoms support, with --hold-ends both outer ends end and with --hold-sides both sides symmetry; the ends at the gap are free. The ending of --output
+bar, and with --end-post the gap is filled with the volume 'end post', to which 'Rail/Materials' gives its material. Tops are named contact, bottoms support, with --hold-ends both outer ends end and with --hold-sides both sides symmetry; the ends at the gap are free. The ending of --output
 decides about the format: .msh (Gmsh, --version 2.2 or 4.1), .inp (Abaqus) or .k (LS-DYNA). Lengths in mm.
 """
 
@@ -29,6 +29,7 @@ class Mesh(NamedTuple):
     points: numpy.ndarray
     cells: list[tuple[int, ...]]
     faces: dict[str, list[tuple[int, int]]]
+    volumes: dict[str, list[int]] = {}  # cells of volumes that are not the rail
 
 
 def even_lines(begin: float, end: float, edge: float) -> list[float]:
@@ -76,6 +77,18 @@ def joined(first: Mesh, second: Mesh) -> Mesh:
                 {name: first.faces[name] + [(cell + n_cells, face) for cell, face in second.faces[name]] for name in BOUNDARIES})
 
 
+def with_volume(mesh: Mesh, name: str, begin: float, end: float) -> Mesh:
+    """The same with a name for the volume of the cells between two x."""
+    middles = mesh.points[numpy.array(mesh.cells)][:, :, 0].mean(axis=1)
+    return mesh._replace(volumes={**mesh.volumes, name: [int(cell) for cell in numpy.flatnonzero((middles > begin) & (middles < end))]})
+
+
+def volumes_of(mesh: Mesh) -> list[tuple[str, list[int]]]:
+    """Names of all volumes and their cells, the rail first."""
+    others = {cell for cells in mesh.volumes.values() for cell in cells}
+    return [("rail", [cell for cell in range(len(mesh.cells)) if cell not in others]), *mesh.volumes.items()]
+
+
 def corners(mesh: Mesh, cell: int, face: int) -> list[int]:
     """Numbers of a face's nodes from 1, as files have them."""
     return [mesh.cells[cell][corner] + 1 for corner in FACES[face]]
@@ -88,23 +101,26 @@ def named(mesh: Mesh) -> list[tuple[int, str]]:
 
 def gmsh(mesh: Mesh, version: str) -> str:
     """The text of a .msh file of Gmsh."""
-    names = named(mesh)
-    lines = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names) + 1)]
-    lines += [f'2 {number} "{name}"' for number, name in names] + ['3 10 "rail"', "$EndPhysicalNames"]
+    names, volumes = named(mesh), [(number, name, cells) for number, (name, cells) in enumerate(volumes_of(mesh), 10)]
+    lines = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names) + len(volumes))]
+    lines += [f'2 {number} "{name}"' for number, name in names] + [f'3 {number} "{name}"' for number, name, _ in volumes] + ["$EndPhysicalNames"]
     n_faces = sum(len(mesh.faces[name]) for _, name in names)
     if version == "2.2":
         lines += ["$Nodes", str(len(mesh.points))] + [f"{i} {p[0]:.12g} {p[1]:.12g} {p[2]:.12g}" for i, p in enumerate(mesh.points, 1)]
         lines += ["$EndNodes", "$Elements", str(n_faces + len(mesh.cells))]
-        rows = [(3, number, corners(mesh, *face)) for number, name in names for face in mesh.faces[name]] + [(5, 10, [i + 1 for i in cell]) for cell in mesh.cells]
+        rows = [(3, number, corners(mesh, *face)) for number, name in names for face in mesh.faces[name]] + [
+            (5, number, [i + 1 for i in mesh.cells[cell]]) for number, _, cells in volumes for cell in cells]
         lines += [f"{i} {kind} 2 {number} {number} {' '.join(map(str, nodes))}" for i, (kind, number, nodes) in enumerate(rows, 1)]
         return "\n".join(lines + ["$EndElements", ""])
     box = " ".join(f"{value:.12g}" for value in (*mesh.points.min(0), *mesh.points.max(0)))
-    lines += ["$Entities", f"0 0 {len(names)} 1"] + [f"{number} {box} 1 {number} 0" for number, _ in names] + [f"1 {box} 1 10 0", "$EndEntities"]
+    lines += ["$Entities", f"0 0 {len(names)} {len(volumes)}"] + [f"{number} {box} 1 {number} 0" for number, _ in names]
+    lines += [f"{number - 9} {box} 1 {number} 0" for number, _, _ in volumes] + ["$EndEntities"]
     lines += ["$Nodes", f"1 {len(mesh.points)} 1 {len(mesh.points)}", f"3 1 0 {len(mesh.points)}"]
     lines += [str(i + 1) for i in range(len(mesh.points))] + [f"{p[0]:.12g} {p[1]:.12g} {p[2]:.12g}" for p in mesh.points]
-    lines += ["$EndNodes", "$Elements", f"{len(names) + 1} {n_faces + len(mesh.cells)} 1 {n_faces + len(mesh.cells)}"]
+    lines += ["$EndNodes", "$Elements", f"{len(names) + len(volumes)} {n_faces + len(mesh.cells)} 1 {n_faces + len(mesh.cells)}"]
     count = 0
-    blocks = [(2, number, 3, [corners(mesh, *face) for face in mesh.faces[name]]) for number, name in names] + [(3, 1, 5, [[i + 1 for i in cell] for cell in mesh.cells])]
+    blocks = [(2, number, 3, [corners(mesh, *face) for face in mesh.faces[name]]) for number, name in names] + [
+        (3, number - 9, 5, [[i + 1 for i in mesh.cells[cell]] for cell in cells]) for number, _, cells in volumes]
     for dimension, entity, kind, block in blocks:
         lines.append(f"{dimension} {entity} {kind} {len(block)}")
         for nodes in block:
@@ -116,7 +132,9 @@ def gmsh(mesh: Mesh, version: str) -> str:
 def abaqus(mesh: Mesh) -> str:
     """The text of an .inp file of Abaqus."""
     lines = ["*HEADING", "a bar", "*NODE"] + [f"{i}, {p[0]:.12g}, {p[1]:.12g}, {p[2]:.12g}" for i, p in enumerate(mesh.points, 1)]
-    lines += ["*ELEMENT, TYPE=C3D8R, ELSET=RAIL"] + [f"{i}, {', '.join(str(corner + 1) for corner in cell)}" for i, cell in enumerate(mesh.cells, 1)]
+    for name, cells in volumes_of(mesh):
+        lines += [f'*ELEMENT, TYPE=C3D8R, ELSET="{name.upper()}"' if " " in name else f"*ELEMENT, TYPE=C3D8R, ELSET={name.upper()}"]
+        lines += [f"{cell + 1}, {', '.join(str(corner + 1) for corner in mesh.cells[cell])}" for cell in cells]
     for _, name in named(mesh):
         lines += [f"*SURFACE, TYPE=ELEMENT, NAME={name.upper()}"] + [f"{cell + 1}, S{face + 1}" for cell, face in mesh.faces[name]]
     return "\n".join(lines + [""])
@@ -125,8 +143,11 @@ def abaqus(mesh: Mesh) -> str:
 def ls_dyna(mesh: Mesh) -> str:
     """The text of a .k file of LS-DYNA."""
     lines = ["*KEYWORD", "*NODE"] + [f"{i:8d}{p[0]:16.9g}{p[1]:16.9g}{p[2]:16.9g}" for i, p in enumerate(mesh.points, 1)]
-    lines += ["*PART", "rail", f"{1:10d}{1:10d}{1:10d}", "*ELEMENT_SOLID"]
-    lines += ["".join(f"{number:8d}" for number in (i, 1, *(corner + 1 for corner in cell))) for i, cell in enumerate(mesh.cells, 1)]
+    volumes = volumes_of(mesh)
+    for part, (name, _) in enumerate(volumes, 1):
+        lines += ["*PART", name, f"{part:10d}{part:10d}{part:10d}"]
+    lines += ["*ELEMENT_SOLID"] + ["".join(f"{number:8d}" for number in (cell + 1, part, *(corner + 1 for corner in mesh.cells[cell])))
+                                   for part, (_, cells) in enumerate(volumes, 1) for cell in cells]
     for number, name in named(mesh):
         lines += ["*SET_SEGMENT_TITLE", name, f"{number:10d}"] + ["".join(f"{node:10d}" for node in corners(mesh, *face)) for face in mesh.faces[name]]
     return "\n".join(lines + ["*END", ""])
@@ -150,6 +171,7 @@ def main() -> None:
     for name, value, what in (("length", 300., "of both bars with the gap"), ("width", 60., "of a bar"), ("height", 60., "at the crown"), ("edge", 10., "of the cells"),
                               ("crown-radius", 300., "0: a flat top"), ("gap", 0., "about x = 0"), ("step", 0., "by which the bar behind the gap is higher")):
         parser.add_argument(f"--{name}", type=float, default=value, metavar="MM", help=f"{what} (default {value:g})")
+    parser.add_argument("--end-post", action="store_true", help="fill the gap with a volume of this name; without a step")
     parser.add_argument("--hold-ends", action="store_true", help="name the outer ends 'end': planes of symmetry")
     parser.add_argument("--hold-sides", action="store_true", help="name the sides 'symmetry': a slice in plane strain; without a gap or --perturb")
     options = parser.parse_args()
@@ -163,6 +185,8 @@ def main() -> None:
         raise Error("--hold-sides is for a bar without --gap and without --perturb")
     if options.hold_sides and options.crown_radius > 0.:
         raise Error("--hold-sides is for a flat top: --crown-radius 0")
+    if options.end_post and (options.gap == 0. or options.step != 0.):
+        raise Error("--end-post fills a --gap without a --step")
     half = 0.5 * options.length
     y, z = even_lines(-0.5 * options.width, 0.5 * options.width, options.edge), even_lines(-options.height, 0., options.edge)
     ends, radius = options.hold_ends, options.crown_radius
@@ -170,6 +194,9 @@ def main() -> None:
         mesh = perturbed(even_lines(-half, half, options.edge), y, z, radius, options.perturb)
     elif options.gap == 0.:
         mesh = bar(even_lines(-half, half, options.edge), y, z, radius, 0., (ends, ends), options.hold_sides)
+    elif options.end_post:
+        before, behind = even_lines(-half, -0.5 * options.gap, options.edge), even_lines(0.5 * options.gap, half, options.edge)
+        mesh = with_volume(bar(before + behind, y, z, radius, 0., (ends, ends)), "end post", before[-1], behind[0])
     else:
         mesh = joined(bar(even_lines(-half, -0.5 * options.gap, options.edge), y, z, radius, 0., (ends, False)),
                       bar(even_lines(0.5 * options.gap, half, options.edge), y, z, radius, options.step, (False, ends)))

@@ -29,7 +29,8 @@ namespace tread
   {
     std::string                      name;
     std::vector<dealii::Point<3>>    vertices; ///< of the coarse cells, in chart coordinates
-    std::vector<dealii::CellData<3>> cells;    ///< vertex numbers from 0, deal.II's (lexicographic) order
+    std::vector<dealii::CellData<3>> cells;    ///< vertex numbers from 0, deal.II's (lexicographic) order;
+                                            ///< material_id 0: the body's own material, k: the k-th other one
 
     /// How new vertices are placed while refining; null: straight in chart coordinates.
     std::shared_ptr<const dealii::Manifold<3>> manifold;

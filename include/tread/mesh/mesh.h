@@ -46,7 +46,13 @@ namespace tread
     {
       std::array<unsigned int, 8> nodes; ///< deal.II's (lexicographic) order
       unsigned int                body;
-      CellAddress                 address;
+      unsigned int material; ///< the number of its body, or behind all bodies' one of the others
+      CellAddress  address;
+
+      bool has_own_material() const ///< of its body
+      {
+        return material == body;
+      }
     };
 
     /// A quadrilateral of the boundary, nodes around it counter-clockwise seen from outside.

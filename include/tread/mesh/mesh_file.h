@@ -23,6 +23,15 @@ namespace tread
     Boundary                    boundary;
   };
 
+  /// A group of hexahedra with a name.
+  struct MeshVolume
+  {
+    std::string               name;
+    std::vector<unsigned int> cells;
+    std::string               material; ///< that the file gives to it; empty: none
+    unsigned int              line = 0; ///< where it does
+  };
+
   /// Hexahedra of the user's own, checked: all cells have positive volume at all corners, each vertex belongs
   /// to one, no two vertices lie at one place, none lies within a cell or on a face that is not its own, the
   /// named faces are on the boundary, and each piece has faces of support. Lengths in m.
@@ -33,7 +42,7 @@ namespace tread
     std::vector<dealii::CellData<3>> cells; ///< deal.II's (lexicographic) order, the first edge along x and
                                             ///< the last along z as nearly as the cell's shape allows
     std::vector<NamedFace>   faces;         ///< contact, support, end, side
-    std::vector<std::string> volumes;       ///< names of groups of hexahedra
+    std::vector<MeshVolume>  volumes;
     std::vector<std::string> doubts; ///< what the user should know of it: one line each, with the file's name
 
     /// Range of the vertices in a direction.
@@ -49,8 +58,12 @@ namespace tread
   /// inside out and leaves out nodes without a cell in silence, loses surfaces of Abaqus, and knows no
   /// LS-DYNA and no place in the file.
   /// @param unit of the file's lengths, m
+  /// @param other_materials names of volumes whose cells have the first, the second ... other material than
+  /// the rail's own, as material_id of the cells
   /// @throws InputError of one line with the place in the file and what to do
-  MeshFile read_mesh_file(const std::string &file, const double unit);
+  MeshFile read_mesh_file(const std::string              &file,
+                          const double                    unit,
+                          const std::vector<std::string> &other_materials = {});
 
 
   /// What a mesh file says, before it is checked. Numbers of nodes and elements are the file's own.
@@ -81,16 +94,17 @@ namespace tread
       std::vector<long>          nodes;
     };
 
-    std::map<long, Node>     nodes;
-    std::vector<Hexahedron>  hexahedra;
-    std::vector<Named>       boundary;
-    std::vector<std::string> volumes;
+    std::map<long, Node>    nodes;
+    std::vector<Hexahedron> hexahedra;
+    std::vector<Named>      boundary;
+    std::vector<MeshVolume> volumes;
     /// What was passed over because it cannot change the answer, each name once with its first line.
     std::vector<std::pair<std::string, unsigned int>> passed_over;
     std::vector<std::string>                          doubts; ///< one line each, without the file's name
 
     /// The named part, made where there is none yet.
-    Named &named(const std::string &name, const unsigned int line);
+    Named      &named(const std::string &name, const unsigned int line);
+    MeshVolume &volume(const std::string &name);
     /// @throws TextError if the number is taken
     void add_node(const long number, const dealii::Point<3> &place, const unsigned int line);
     void pass_over(const std::string &name, const unsigned int line);

@@ -57,7 +57,7 @@ namespace tread
     /// (plastic_benchmark).
     static constexpr double relative_cost = 2.;
 
-    /// @param materials one for each body. @param zones if a cell lies in several zones of a body, the last
+    /// @param materials @see Solid. @param zones if a cell lies in several zones of a body, the last
     /// one applies. @param force_quantum of what is added to the forces of nodes, N.
     PlasticCells(const Mesh                         &mesh,
                  const std::vector<ElasticMaterial> &materials,

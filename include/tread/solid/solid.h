@@ -40,7 +40,8 @@ namespace tread
   class Solid
   {
   public:
-    /// @param materials one for each body. @param zones of cells that may yield; the others are elastic.
+    /// @param materials one for each body, then others that cells may have. @param zones of cells that may
+    /// yield, of their body's own material; the others are elastic.
     Solid(const Mesh                         &mesh,
           const std::vector<ElasticMaterial> &materials,
           const SolidParameters              &parameters,
@@ -109,8 +110,13 @@ namespace tread
       return cauchy_stress(x, virgin_history);
     }
 
-    /// Some cells of a body, none of a plastic zone, in groups of their own: for those who look at their
-    /// stresses in every step.
+    const ElasticMaterial &material_of(const Mesh::Cell &cell) const
+    {
+      return materials[cell.material];
+    }
+
+    /// Some cells of a body, all of its own material and none of a plastic zone, in groups of their own: for
+    /// those who look at their stresses in every step.
     std::vector<std::unique_ptr<const CellGroup>> groups_of(const Mesh                      &mesh,
                                                             const unsigned int               body,
                                                             const std::vector<unsigned int> &cells) const;

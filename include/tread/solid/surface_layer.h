@@ -28,7 +28,7 @@ namespace tread
   public:
     SurfaceLayer() = default;
 
-    /// @param materials one for each body.
+    /// @param materials @see Solid.
     SurfaceLayer(const Mesh                         &mesh,
                  const std::vector<ElasticMaterial> &materials,
                  const double                        hourglass_coefficient);

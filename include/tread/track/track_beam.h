@@ -3,7 +3,6 @@
 #define tread_track_track_beam_h
 
 #include <tread/base/archive.h>
-#include <tread/material/elastic.h>
 #include <tread/reference/supported_beam.h>
 
 #include <deal.II/lac/sparse_direct.h>
@@ -83,7 +82,6 @@ namespace tread
     double                 axial_stiffness = 0.; ///< E A, N
     double                 begin           = 0.; ///< x of the beam's held section, m
     TrackBeamParameters    track;                ///< with the part that carries cells
-    ElasticMaterial        cells;                ///< of that part
   };
 
   /// A rail as a Timoshenko beam and bar on supports (springs, dampers and sleepers). It stands for the track

@@ -75,7 +75,8 @@ namespace tread
       std::vector<bool> moves(mesh.nodes.size(), true);
       for (const unsigned int i : carried)
         moves[i] = false;
-      std::vector<ReproducibleSum<double>> mass(n), bending(n); // times lengths: kg, N m^3
+      std::vector<ReproducibleSum<double>> mass(n), bending(n),
+        inertia(n); // times lengths: kg, N m^3, kg m^2
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         if (mesh.cells[c].body == body)
           {
@@ -88,15 +89,17 @@ namespace tread
                 from = std::min(from, corners[a][0]);
                 to   = std::max(to, corners[a][0]);
               }
-            const double square = mean_square(corners, bottom);
+            const ElasticMaterial &material = of.solid.material_of(mesh.cells[c]);
+            const double           square   = cell.volume * mean_square(corners, bottom);
             for (std::size_t e = 0; e < n; ++e)
               if (const double share =
                     (std::min(to - beam.begin, places[e + 1]) - std::max(from - beam.begin, places[e])) /
                     (to - from);
                   share > 0.)
                 {
-                  mass[e].add(share * beam.cells.density * moving);
-                  bending[e].add(share * beam.cells.young_modulus * cell.volume * square);
+                  mass[e].add(share * material.density * moving);
+                  bending[e].add(share * material.young_modulus * square);
+                  inertia[e].add(share * material.density * square);
                 }
           }
       LoadedPart &loaded = beam.track.loaded;
@@ -108,7 +111,7 @@ namespace tread
             reference::BeamSection &cells  = loaded.cells[e];
             cells.mass                     = mass[e].value(mesh.comm) / length;
             cells.bending_stiffness        = bending[e].value(mesh.comm) / length;
-            cells.rotary_inertia = cells.bending_stiffness * beam.cells.density / beam.cells.young_modulus;
+            cells.rotary_inertia           = inertia[e].value(mesh.comm) / length;
             check_what_is_left(beam, places[e], places[e + 1], cells);
           }
       return beam;

@@ -2,6 +2,8 @@
 #include <tread/mesh/rail_body.h>
 #include <tread/scene/sections/rail.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -118,6 +120,11 @@ namespace tread
                 "doc/own-mesh.md. The path lies at y = 0 or beside it, as the wheel has it.",
                 Anything());
     section.choose("Mesh unit", mesh_unit, "Of the lengths in 'Mesh file'.");
+    section.add(
+      "Materials", materials,
+      "Of 'Mesh file': volumes that are of another, elastic material than the rail, such as an end post or "
+      "rubber around the rail. Name of the volume, Young's modulus (GPa), Poisson's ratio and density (kg "
+      "per m3), separated by colons, as in end post:3:0.35:1900. Several: separated by commas.");
     section.choose("Inclination", inclination,
                    "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
                    "same slope touches it on the "
@@ -192,6 +199,44 @@ namespace tread
   double RailSection::height() const
   {
     return is_block() ? block_height : standard_profile().height();
+  }
+
+
+  std::vector<RailSection::VolumeMaterial> RailSection::volume_materials() const
+  {
+    std::vector<VolumeMaterial> list;
+    for (const std::string &text : dealii::Utilities::split_string_list(materials))
+      {
+        std::vector<std::string> words = dealii::Utilities::split_string_list(text, ':');
+        std::vector<double>      values;
+        const std::string        volume = words.front();
+        words.erase(words.begin());
+        try
+          {
+            values = dealii::Utilities::string_to_double(words);
+          }
+        catch (const dealii::ExceptionBase &)
+          {
+            values.clear();
+          }
+        const std::string begin = "'Rail/Materials' cannot be '" + text + "'; ";
+        require(
+          values.size() == 3 && !volume.empty(),
+          begin +
+            "allowed: name of the volume:Young's modulus:Poisson's ratio:density, in GPa and kg per m3");
+        const auto in = [&](const double value, const double least, const double most,
+                            const std::string &what) {
+          require(value >= least && value <= most,
+                  begin + what + " must be from " + text_of(least) + " to " + text_of(most));
+        };
+        in(values[0], 1e-4, 1e4, "Young's modulus (GPa)");
+        in(values[1], 0., 0.49, "Poisson's ratio");
+        in(values[2], 100., 1e5, "density (kg per m3)");
+        for (const VolumeMaterial &other : list)
+          require(other.volume != volume, begin + "the volume is there twice");
+        list.push_back({volume, {1e9 * values[0], values[1], values[2]}});
+      }
+    return list;
   }
 
 

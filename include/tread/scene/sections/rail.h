@@ -74,6 +74,7 @@ namespace tread
     double      slices_y = 0.75, slices_z = 0.; ///< of their y = 0 and z = 0, from the middle of the track
     std::string mesh_file;                      ///< of a rail that the user has meshed
     LengthUnit  mesh_unit = LengthUnit::millimetre;
+    std::string materials;                   ///< of volumes of that mesh that are not of the rail's own
     std::optional<double> begin;             ///< x of the first end; none: automatic
     double                length       = 0.; ///< 0: from margin to margin
     double                crown_radius = 0.3, block_width = 0.12, block_height = 0.06;
@@ -82,6 +83,14 @@ namespace tread
     double                absorbing_length = 0.6;
     unsigned int          spans_beyond     = 20; ///< behind each endless end
     MaterialSection       material;
+
+    struct VolumeMaterial
+    {
+      std::string     volume; ///< its name in the mesh file
+      ElasticMaterial material;
+    };
+    /// @throws InputError
+    std::vector<VolumeMaterial> volume_materials() const;
 
     bool is_sliced() const
     {
