@@ -465,7 +465,7 @@ namespace
       check.that("refused: " + text, text.find(words) != text.npos);
     };
     refused("0,7,547,94\n-3,7,547,94\n", "row 2: x_mm -3 must be at least a millimetre behind", names);
-    refused("0,7e6,547,94\n", "row 1: bending_stiffness_MN_m2 7000000 is no value of a rail", names);
+    refused("0,7e6,547,94\n", "row 1: bending_stiffness_MN_m2 7e+06 is no value of a rail", names);
     refused("0,7,0,94\n", "row 1: shear_stiffness_MN 0 is no value of a rail", names);
     refused("90000,7,547,94\n", "lies beyond the beam, which goes from", names);
     refused("", "has no rows", names);

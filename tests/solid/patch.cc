@@ -108,7 +108,7 @@ namespace
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
     const std::string     name = refined ? "two materials, refined: " : "two materials: ";
-    constexpr double      h = 0.04, width = 0.04, strain = 1e-7; // m, m, of the steel
+    constexpr double      h = 0.04, width = 0.04, strain = 1e-8; // m, m, of the steel
     const ElasticMaterial steel{210e9, 0., 7800.}, soft{3e9, 0., 1900.};
     const auto            box = [](const char *name, const double x) {
       return tests::make_box(name, Point<3>(x, 0., 0.), Point<3>(x + width, width, 2. * h), {{2, 2, 4}});
@@ -141,12 +141,12 @@ namespace
             inner = std::max(inner, std::sqrt(dot(force[i], force[i])));
           else if (z > h && mesh.shared_nodes.is_owned(i))
             at_top += force[i][2];
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          for (const double of_node : solid.cell_masses(mesh)[c])
+        for (const auto &of_cell : solid.cell_masses(mesh))
+          for (const double of_node : of_cell)
             mass += of_node;
         const double pulled = strain * steel.young_modulus * width * width;
-        check.relative(name + type + ": force on its top, N", sum(at_top, mesh.comm), -pulled, 1e-6);
-        check.below(name + type + ": force within over that", max(inner, mesh.comm) / pulled, 1e-6);
+        check.relative(name + type + ": force on its top, N", sum(at_top, mesh.comm), -pulled, 1e-5);
+        check.below(name + type + ": force within over that", max(inner, mesh.comm) / pulled, 1e-5);
         check.relative(name + type + ": mass, kg", sum(mass, mesh.comm),
                        width * width * h * (3. * steel.density + soft.density), 1e-12);
       }
