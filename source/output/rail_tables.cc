@@ -11,6 +11,51 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// rail_cells.csv: middle, von Mises stress, Cauchy stress xx, yy, zz, xy, yz, zx, plastic strain.
+    const Columns<std::array<double, 11>> &rail_cell_columns()
+    {
+      static const auto columns = columns_of<11>(
+        {{{"x", "mm", "Middle of the cell before any load, along the rail"},
+          {"y", "mm", "The same across"},
+          {"z", "mm", "The same upwards"},
+          {"von_mises", "MPa", "Von Mises stress in the middle of the cell at the solution instant"},
+          {"stress_xx", "MPa", "Cauchy stress, along the rail"},
+          {"stress_yy", "MPa", "Across"},
+          {"stress_zz", "MPa", "Upwards"},
+          {"stress_xy", "MPa", "Shear"},
+          {"stress_yz", "MPa", "Shear"},
+          {"stress_zx", "MPa", "Shear"},
+          {"equivalent_plastic_strain", "percent", "Equivalent plastic strain at that instant"}}});
+      return columns;
+    }
+
+    /// rail_surface.csv: place and displacement.
+    const Columns<std::array<double, 13>> &rail_surface_columns()
+    {
+      static const auto columns =
+        columns_of<13>({{{"x", "mm", "Node of the surface before any load, along the rail"},
+                         {"y", "mm", "The same across"},
+                         {"z", "mm", "The same upwards"},
+                         {"u_x", "um", "Displacement at the solution instant, along the rail"},
+                         {"u_y", "um", "The same across"},
+                         {"u_z", "um", "The same upwards"},
+                         {"von_mises", "MPa", "Von Mises stress at the surface, recovered, at that instant"},
+                         {"stress_xx", "MPa", "Cauchy stress there, along the rail"},
+                         {"stress_yy", "MPa", "Across"},
+                         {"stress_zz", "MPa", "Upwards"},
+                         {"stress_xy", "MPa", "Shear"},
+                         {"stress_yz", "MPa", "Shear"},
+                         {"stress_zx", "MPa", "Shear"}}});
+      return columns;
+    }
+
+    const bool rail_tables_are_known = know_table(describe("rail_cells.csv", rail_cell_columns())) &&
+                                       know_table(describe("rail_surface.csv", rail_surface_columns()));
+  } // namespace
+
+
   void RunFolder::write_rail_tables(const ExplicitDynamics                    &dynamics,
                                     const std::vector<StressRecovery::Stress> &stresses,
                                     const unsigned int                         body,

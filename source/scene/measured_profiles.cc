@@ -12,6 +12,26 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Points of a measured profile: line of its file, y and z as used, as measured (m).
+    const Columns<std::array<double, 5>> &measured_profile_columns()
+    {
+      static const auto columns = columns_of<5>(
+        {{{"line", "", "Of the profile's file that the point stands in"},
+          {"y", "mm", "Point of the profile as it is used, placed and smoothed, across the track"},
+          {"z", "mm", "The same upwards"},
+          {"measured_y", "mm", "The same point before it was smoothed, across the track"},
+          {"measured_z", "mm", "The same upwards"}}});
+      return columns;
+    }
+
+    const bool measured_profiles_are_known =
+      know_table(describe("measured_wheel.csv", measured_profile_columns())) &&
+      know_table(describe("measured_rail.csv", measured_profile_columns()));
+  } // namespace
+
+
   MeasuredProfiles::MeasuredProfiles(const Scene &scene)
   {
     const auto add = [&](const std::string &body, const std::string &parameter, const std::string &file,

@@ -78,11 +78,11 @@ namespace tread
     rail.check();
     const double              unit = rail.mesh_unit == LengthUnit::millimetre ? 1e-3 : 1.;
     std::shared_ptr<MeshRail> own;
+    std::vector<std::string>  volumes;
+    for (const auto &other : rail.volume_materials())
+      volumes.push_back(other.volume);
     try
       {
-        std::vector<std::string> volumes;
-        for (const auto &other : rail.volume_materials())
-          volumes.push_back(other.volume);
         own            = std::make_shared<MeshRail>(read_mesh_file(located(rail.mesh_file), unit, volumes));
         made.rail_mesh = own;
         require_size_of_rail(*made.rail_mesh, rail.mesh_unit);

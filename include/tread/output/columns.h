@@ -3,11 +3,8 @@
 #define tread_output_columns_h
 
 #include <tread/analysis/contact_patch.h>
-#include <tread/analysis/rail_stress.h>
-#include <tread/analysis/stress_peaks.h>
 #include <tread/analysis/surface_damage.h>
 #include <tread/output/records.h>
-#include <tread/track/rail_seats.h>
 
 #include <array>
 #include <functional>
@@ -120,39 +117,24 @@ namespace tread
     out << '\n';
   }
 
-  // The tables of a run. A new column is one line in its list.
-
-  /// What has columns in history.csv.
-  struct HistoryParts
+  /// Columns of arrays of values in SI units, in their order. @param texts name, unit and what it is
+  template <std::size_t n>
+  Columns<std::array<double, n>> columns_of(const std::array<std::array<const char *, 3>, n> &texts)
   {
-    unsigned int     n_wheels;                  ///< all but the first have their number in the name
-    bool             moves_across;              ///< the first one, across its track
-    bool             has_both_wheels;           ///< the first one's wheelset
-    std::vector<int> supports;                  ///< their numbers
-    bool             base_moves_across = false; ///< of the rail, on a track that runs along
-    bool             base_pitches      = false; ///< on a beam
-    bool             has_flexible_axle = false; ///< the first one's wheelset
-    bool             has_slices        = false; ///< a rail that changes along the way
-    bool             has_two_pieces    = false; ///< of it, such as nose and wing
-    bool             has_window        = false; ///< of fine cells, which moves
-  };
-  /// history.csv.
-  Columns<HistoryRow> history_columns(const HistoryParts &parts);
-  /// cells.csv. @param n_cells so many have columns
-  Columns<HistoryRow>                cell_columns(std::size_t n_cells);
-  const Columns<PatchNode>          &patch_columns();
-  const Columns<PatchesRow>         &patches_columns();
-  const Columns<Passage>            &passage_columns();
-  const Columns<StripColumn>        &strip_columns();
-  Columns<SurfacePlace>              surface_damage_columns(bool of_wheel);
-  const Columns<StressPeaks::Layer> &peak_columns();
-  const Columns<RailSeatPoint>      &rail_seat_columns();
-  /// rail_cells.csv: middle, von Mises stress, Cauchy stress xx, yy, zz, xy, yz, zx, plastic strain.
-  const Columns<std::array<double, 11>> &rail_cell_columns();
-  /// rail_surface.csv: place and displacement.
-  const Columns<std::array<double, 13>> &rail_surface_columns();
-  /// Points of a measured profile: line of its file, y and z as used, as measured (m).
-  const Columns<std::array<double, 5>> &measured_profile_columns();
+    Columns<std::array<double, n>> columns;
+    for (std::size_t k = 0; k < n; ++k)
+      columns.push_back({texts[k][0], texts[k][1], texts[k][2], [k](const std::array<double, n> &row) {
+                           return row[k];
+                         }});
+    return columns;
+  }
+
+  // Tables that several write; those of one recorder are described beside it. A new column is one line in
+  // its list.
+
+  const Columns<PatchNode>  &patch_columns();
+  const Columns<PatchesRow> &patches_columns();
+  Columns<SurfacePlace>      surface_damage_columns(bool of_wheel);
 
   /// All tables that a run can leave, with all columns that they can have: one support, 0, the second one of
   /// several wheels, and one cell stand for others.

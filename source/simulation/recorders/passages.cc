@@ -15,8 +15,77 @@
 
 namespace tread
 {
+  const Columns<Passage> &passage_columns()
+  {
+    using R = Passage;
+    static const Columns<R> columns{
+      {"passage", "", "Number of the wheel that has rolled over",
+       [](const R &r) {
+         return r.number;
+       }},
+      {"skipped", "", "Passages before it over which the change was extrapolated",
+       [](const R &r) {
+         return r.skipped;
+       }},
+      {"settlement", "um",
+       "Of the rail's surface in the middle of the path since before the first wheel, downwards, without "
+       "load: the first row's is known when the second wheel stands at the beginning, and never where the "
+       "steel failed before",
+       [](const R &r) {
+         return r.settlement;
+       }},
+      {"shift", "um", "The same along the rail, forward",
+       [](const R &r) {
+         return r.shift;
+       }},
+      {"equivalent_plastic_strain", "percent", "Largest of the rail's cells in the middle of the path",
+       [](const R &r) {
+         return r.plastic_strain;
+       }},
+      {"net_plastic_strain", "percent",
+       "Largest there of what is left of the plastic strain, equivalent, without what goes forth and back",
+       [](const R &r) {
+         return r.net_strain;
+       }},
+      {"net_plastic_strain_of_passage", "percent", "Largest change there in this passage",
+       [](const R &r) {
+         return r.growth;
+       }},
+      {"residual_von_mises", "MPa", "Largest stress there, likewise without load",
+       [](const R &r) {
+         return r.residual_stress;
+       }},
+      {"plastic_work", "J", "Of this passage",
+       [](const R &r) {
+         return r.plastic_work;
+       }},
+      {"frictional_work", "J", "Of this passage",
+       [](const R &r) {
+         return r.frictional_work;
+       }},
+      {"traction_coefficient", "", "Mean over the last 10 mm of the passage",
+       [](const R &r) {
+         return r.traction_coefficient;
+       }},
+      {"max_pressure", "MPa", "Largest of a node at the solution instant",
+       [](const R &r) {
+         return r.max_pressure;
+       }},
+      {"energy_residual_share", "", "Residual over the gross work",
+       [](const R &r) {
+         return r.energy_residual_share;
+       }},
+      {"energy_residual_of_dissipated", "", "Residual over the dissipated work", [](const R &r) {
+         return r.energy_residual_of_dissipated;
+       }}};
+    return columns;
+  }
+
+
   namespace
   {
+    const bool passages_are_known = know_table(describe("passages.csv", passage_columns()));
+
     /// Whether a place of the reference configuration is where passages are compared, in the middle of the
     /// path.
     bool is_in_middle_of(const Scene &scene, const dealii::Point<3> &p)

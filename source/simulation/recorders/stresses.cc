@@ -15,8 +15,131 @@
 
 namespace tread
 {
+  const Columns<StripColumn> &strip_columns()
+  {
+    using R = StripColumn;
+    static const Columns<R> columns{
+      {"x", "mm", "Of the surface cell, along the rail",
+       [](const R &r) {
+         return r.x;
+       }},
+      {"von_mises", "MPa", "Largest stress of all rows of the history in the middles of the cells below it",
+       [](const R &r) {
+         return r.largest.stress;
+       }},
+      {"y", "mm", "Where it was, across",
+       [](const R &r) {
+         return r.y;
+       }},
+      {"depth", "mm", "Where it was",
+       [](const R &r) {
+         return r.depth;
+       }},
+      {"time", "s", "When it was",
+       [](const R &r) {
+         return r.largest.time;
+       }},
+      {"wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.largest.wheel_x;
+       }},
+      {"surface_von_mises", "MPa", "Largest stress of the surface, recovered at the nodes of the cell",
+       [](const R &r) {
+         return r.at_surface.stress;
+       }},
+      {"surface_y", "mm", "Where it was, across",
+       [](const R &r) {
+         return r.y_at_surface;
+       }},
+      {"surface_time", "s", "When it was",
+       [](const R &r) {
+         return r.at_surface.time;
+       }},
+      {"surface_wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.at_surface.wheel_x;
+       }},
+      {"equivalent_plastic_strain", "percent", "Largest of the cells below, at the end", [](const R &r) {
+         return r.equivalent_plastic_strain;
+       }}};
+    return columns;
+  }
+
+
+  const Columns<StressPeaks::Layer> &peak_columns()
+  {
+    using R = StressPeaks::Layer;
+    static const Columns<R> columns{
+      {"depth", "mm", "Half the height of the layer of cells; 0: the surface",
+       [](const R &r) {
+         return r.peak.depth;
+       }},
+      {"von_mises", "MPa", "Largest von Mises stress of all steps, recovered at this depth",
+       [](const R &r) {
+         return r.peak.value;
+       }},
+      {"x", "mm", "Where it was, along the rail",
+       [](const R &r) {
+         return r.peak.x;
+       }},
+      {"y", "mm", "Where it was, across",
+       [](const R &r) {
+         return r.peak.y;
+       }},
+      {"time", "s", "When it was",
+       [](const R &r) {
+         return r.peak.time;
+       }},
+      {"wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.peak.wheel_x;
+       }},
+      {"equivalent_strain", "percent",
+       "Stress over three times the shear modulus, and the largest equivalent plastic strain at the end",
+       [](const R &r) {
+         return r.equivalent_strain;
+       }}};
+    return columns;
+  }
+
+
+  const Columns<RailSeatPoint> &rail_seat_columns()
+  {
+    using R = RailSeatPoint;
+    static const Columns<R> columns{
+      {"support", "", "Its number",
+       [](const R &r) {
+         return r.support;
+       }},
+      {"time", "s", "Of the largest force in its pad",
+       [](const R &r) {
+         return r.time;
+       }},
+      {"wheel_x", "mm", "Where the wheel was then",
+       [](const R &r) {
+         return r.wheel_x;
+       }},
+      {"x", "mm", "Of the part of the pad, along the rail from the pad's middle",
+       [](const R &r) {
+         return r.x;
+       }},
+      {"y", "mm", "The same across",
+       [](const R &r) {
+         return r.y;
+       }},
+      {"pressure", "MPa", "On the pad there, negative in tension", [](const R &r) {
+         return r.pressure;
+       }}};
+    return columns;
+  }
+
+
   namespace
   {
+    const bool stresses_are_known = know_table(describe("strip.csv", strip_columns())) &&
+                                    know_table(describe("peak_stress.csv", peak_columns())) &&
+                                    know_table(describe("rail_seats.csv", rail_seat_columns()));
+
     /// @param stress Pa; @param x, y, depth m
     std::string line_of_stress(const std::string &what,
                                const double       stress,

@@ -3,6 +3,7 @@
 #define tread_simulation_recorders_history_h
 
 #include <tread/analysis/rail_stress.h>
+#include <tread/output/columns.h>
 #include <tread/simulation/model.h>
 #include <tread/simulation/recorders/recorder.h>
 
@@ -11,6 +12,25 @@
 
 namespace tread
 {
+  /// What has columns in history.csv.
+  struct HistoryParts
+  {
+    unsigned int     n_wheels;                  ///< all but the first have their number in the name
+    bool             moves_across;              ///< the first one, across its track
+    bool             has_both_wheels;           ///< the first one's wheelset
+    std::vector<int> supports;                  ///< their numbers
+    bool             base_moves_across = false; ///< of the rail, on a track that runs along
+    bool             base_pitches      = false; ///< on a beam
+    bool             has_flexible_axle = false; ///< the first one's wheelset
+    bool             has_slices        = false; ///< a rail that changes along the way
+    bool             has_two_pieces    = false; ///< of it, such as nose and wing
+    bool             has_window        = false; ///< of fine cells, which moves
+  };
+  /// history.csv.
+  Columns<HistoryRow> history_columns(const HistoryParts &parts);
+  /// cells.csv. @param n_cells so many have columns
+  Columns<HistoryRow> cell_columns(std::size_t n_cells);
+
   /// history.csv and cells.csv: means over intervals of the way, and the state at their ends.
   class History : public Recorder
   {

@@ -2,6 +2,7 @@
 #ifndef tread_simulation_recorders_passages_h
 #define tread_simulation_recorders_passages_h
 
+#include <tread/output/columns.h>
 #include <tread/output/progress.h>
 #include <tread/simulation/model.h>
 #include <tread/simulation/passage_growth.h>
@@ -14,6 +15,8 @@
 
 namespace tread
 {
+  const Columns<Passage> &passage_columns();
+
   /// passages.csv: what several passages leave in the rail, which may leave some of them out.
   class Passages : public Recorder
   {

@@ -4,12 +4,17 @@
 
 #include <tread/analysis/rail_stress.h>
 #include <tread/analysis/stress_peaks.h>
+#include <tread/output/columns.h>
 #include <tread/simulation/model.h>
 #include <tread/simulation/recorders/recorder.h>
 #include <tread/track/rail_seats.h>
 
 namespace tread
 {
+  const Columns<StripColumn>        &strip_columns();
+  const Columns<StressPeaks::Layer> &peak_columns();
+  const Columns<RailSeatPoint>      &rail_seat_columns();
+
   /// strip.csv: the largest stresses under the path, at the ends of intervals of the history.
   class StripRecorder : public Recorder
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/output/columns.h>
+#include <tread/simulation/recorders/history.h>
 
 #include <string>
 #include <utility>
@@ -309,4 +309,18 @@ namespace tread
       }
     return columns;
   }
+
+
+  namespace
+  {
+    bool know_history()
+    {
+      HistoryParts all{2, true, true, {0}};
+      all.base_moves_across = all.base_pitches = all.has_flexible_axle = all.has_slices = all.has_two_pieces =
+        all.has_window                                                                  = true;
+      return know_table(describe("history.csv", history_columns(all))) &&
+             know_table(describe("cells.csv", cell_columns(1)));
+    }
+    const bool history_is_known = know_history();
+  } // namespace
 } // namespace tread
