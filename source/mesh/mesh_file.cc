@@ -596,12 +596,14 @@ namespace tread
             if (const MeshVolume &other =
                   *first.try_emplace(mesh.cells[c].material_id, &volume).first->second;
                 other.material != volume.material)
-              throw TextError(std::max(volume.line, other.line),
-                              "gives the material '" + (volume.line > other.line ? volume : other).material +
-                                "' to hexahedra, and line " +
-                                std::to_string(std::min(volume.line, other.line)) + " gives '" +
-                                (volume.line > other.line ? other : volume).material +
-                                "': " + mesh_words::one_steel);
+              {
+                const auto [earlier, later] = std::minmax(
+                  volume, other, [](const MeshVolume &a, const MeshVolume &b) { return a.line < b.line; });
+                throw TextError(later.line, "gives the material '" + later.material + "' to hexahedra of '" +
+                                              later.name + "', and line " + std::to_string(earlier.line) +
+                                              " gives '" + earlier.material + "' to those of '" +
+                                              earlier.name + "': " + mesh_words::one_steel);
+              }
     }
   } // namespace
 
@@ -611,6 +613,19 @@ namespace tread
     const auto found =
       std::find_if(volumes.begin(), volumes.end(), [&](const MeshVolume &v) { return v.name == name; });
     return found != volumes.end() ? *found : volumes.emplace_back(MeshVolume{name, {}, {}, 0});
+  }
+
+
+  void MeshInput::give_material(const std::string &volume,
+                                const std::string &material,
+                                const unsigned int line)
+  {
+    MeshVolume &own = this->volume(volume);
+    if (!own.material.empty() && own.material != material)
+      throw TextError(line, "gives the material '" + material + "' to '" + volume + "', to which line " +
+                              std::to_string(own.line) + " gives '" + own.material + "'");
+    own.material = material;
+    own.line     = line;
   }
 
 

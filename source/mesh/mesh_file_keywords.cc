@@ -125,9 +125,10 @@ namespace tread
           add_set(name, set);
         for (const Section &section : sections)
           {
-            MeshVolume &volume = mesh.volume(section.set);
-            volume.material    = section.material;
-            volume.line        = section.line;
+            if (elements_of.count(section.set) == 0)
+              throw TextError(section.line,
+                              "gives a material to a set '" + section.set + "' that is not there");
+            mesh.give_material(section.set, section.material, section.line);
           }
         return std::move(mesh);
       }
@@ -513,15 +514,13 @@ namespace tread
           }
         for (const auto &[part, cells] : cells_of_part)
           {
-            const auto  title = titles.find(part);
-            MeshVolume &volume =
-              mesh.volume(title != titles.end() ? title->second.first : "part " + std::to_string(part));
-            volume.cells.insert(volume.cells.end(), cells.begin(), cells.end());
+            const auto        title = titles.find(part);
+            const std::string volume =
+              title != titles.end() ? title->second.first : "part " + std::to_string(part);
+            std::vector<unsigned int> &all = mesh.volume(volume).cells;
+            all.insert(all.end(), cells.begin(), cells.end());
             if (const auto given = materials.find(part); given != materials.end() && given->second.first != 0)
-              {
-                volume.material = std::to_string(given->second.first);
-                volume.line     = given->second.second;
-              }
+              mesh.give_material(volume, std::to_string(given->second.first), given->second.second);
           }
         return std::move(mesh);
       }

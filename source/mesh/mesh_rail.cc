@@ -248,7 +248,7 @@ namespace tread
       return 2 * n <= cells.size()
                ? ""
                : format("%zu of %zu faces of the running surface under the path are of "
-                        "'Rail/Materials': half-space answers, predicted creepage and yielding are "
+                        "'Rail/Materials': half-space answers, predicted creepage, stresses and yielding are "
                         "of the rail's own steel",
                         n, cells.size());
     }

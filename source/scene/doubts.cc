@@ -2,6 +2,7 @@
 // What of a scene makes its answer doubtful, before anything is computed.
 #include <tread/base/format.h>
 #include <tread/geometry/measured_profile.h>
+#include <tread/mesh/mesh_rail.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
@@ -383,6 +384,23 @@ namespace tread
                : "";
     }
 
+    /// Steel on something soft bends about its own middle, and not about the beam below.
+    std::string soft_layer_on_beam(const Scene &scene)
+    {
+      const auto &rail = scene.rail_mesh();
+      return scene.track.is_beam() && rail &&
+                 std::any_of(rail->mesh.faces.begin(), rail->mesh.faces.end(),
+                             [&](const NamedFace &face) {
+                               return face.boundary == Boundary::support &&
+                                      rail->mesh.cells[face.cell].material_id != 0;
+                             })
+               ? "'Track/Foundation' beam: a volume of 'Rail/Materials' lies between the rail and the beam, "
+                 "which has "
+                 "less bending stiffness by all of the cells' as if sections stayed plane: if it is soft, "
+                 "both together are softer than the rail"
+               : "";
+    }
+
     /// Bodies whose surface cannot be matched. @see SurfaceWeights
     std::string unmatched_surface(const Scene &scene)
     {
@@ -414,7 +432,7 @@ namespace tread
     std::vector<std::string> list = implausible_values();
     for (const std::string &doubt :
          {missed_defect(), begins_on_defect(*this), unseen_detail_along(), narrow_island(), short_memory(),
-          short_way(), unmatched_surface(*this), blow_on_a_mass(*this)})
+          short_way(), unmatched_surface(*this), soft_layer_on_beam(*this), blow_on_a_mass(*this)})
       if (!doubt.empty())
         list.push_back(doubt);
     if (rail_mesh())

@@ -151,7 +151,7 @@ namespace tread
        {"bending_stiffness_MN_m2", &BeamRow::bending_stiffness, 1e6, 1e-3, 1e3},
        {"shear_stiffness_MN", &BeamRow::shear_stiffness, 1e6, 1e-1, 1e5},
        {"mass_kg_per_m", &BeamRow::mass, 1., 1e-1, 1e4}}};
-    constexpr double         least_length = 1e-3; // m
+    constexpr double         least_length = 5e-3; // m: shorter elements need shorter steps
     const std::string        file = located(track.beam_file), begin = named_file("Track/Beam file", file);
     std::vector<std::string> names;
     for (const Column &column : columns)
@@ -171,8 +171,7 @@ namespace tread
             own.*column.value = column.in_si * value;
           }
         require(beam_rows.empty() || own.x >= beam_rows.back().x + least_length,
-                place + "x_mm " + text_in_mm(own.x) +
-                  " must be at least a millimetre behind that of the row before");
+                place + "x_mm " + text_in_mm(own.x) + " must be at least 5 mm behind that of the row before");
         beam_rows.push_back(own);
       }
   }
@@ -282,6 +281,11 @@ namespace tread
     require(
       !rail_mesh() || !rail_mesh()->between_planes,
       "'Track/Foundation' beam needs a rail of some width, and this one lies between planes of symmetry");
+    require(
+      !rail_mesh() || std::none_of(rail_mesh()->mesh.faces.begin(), rail_mesh()->mesh.faces.end(),
+                                   [](const NamedFace &face) { return face.boundary == Boundary::end; }),
+      "'Track/Foundation' beam turns the rail's cross-sections, and faces named 'end' in 'Rail/Mesh file' "
+      "would hold them upright: give them no name");
     track.check();
     const BeamUnderRail beam = beam_under_rail();
     const double        end  = beam.begin + beam.track.n_spans * beam.track.spacing;

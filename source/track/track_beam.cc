@@ -39,7 +39,7 @@ namespace tread
 
   BeamNodes beam_nodes(const TrackBeamParameters &parameters)
   {
-    constexpr double  same_place = 1e-4; // m
+    constexpr double  same_place = 1e-3; // m: shorter elements would need shorter steps
     const LoadedPart &loaded     = parameters.loaded;
     BeamNodes         nodes{{0.}, {}};
     const auto        divide = [&](const double to) {
@@ -113,10 +113,12 @@ namespace tread
         reference::BeamSection here =
           section_between(beam, this->parameters.stretches, places[i], places[i + 1]);
         if (!loaded.cells.empty())
-          for (double reference::BeamSection::*const value :
-               {&reference::BeamSection::mass, &reference::BeamSection::bending_stiffness,
-                &reference::BeamSection::rotary_inertia})
-            here.*value -= loaded.cells[i].*value;
+          {
+            const double left = 1. - loaded.cells[i].bending_stiffness / here.bending_stiffness;
+            here.mass -= loaded.cells[i].mass;
+            here.bending_stiffness *= left;
+            here.rotary_inertia *= left;
+          }
         elements.push_back({h, axial_stiffness / h, here.bending_stiffness / h,
                             1. / (1. / here.shear_stiffness + h * h / (12. * here.bending_stiffness))});
         for (const std::size_t node : {i == 0 ? i : i - 1, i}) // the section has none

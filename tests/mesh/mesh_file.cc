@@ -209,8 +209,19 @@ namespace
         says(refusal(name, {"rubber"}), "has no hexahedra in a volume 'rubber'");
       }
     says(refusal("two.inp", {"end post", "all"}), "two materials");
-    says(refusal("two.inp", {}), "gives the material 'nylon' to hexahedra, and line");
-    says(refusal("two.k", {}), "gives the material '8' to hexahedra, and line");
+    says(
+      refusal("two.inp", {}),
+      "gives the material 'nylon' to hexahedra of 'end post', and line 35 gives 'steel' to those of 'first'");
+    says(refusal("two.k", {}), "gives the material '8' to hexahedra of 'end post', and line");
+    // Two materials of one volume, and one of a set that is not there.
+    folder.write("two.k", replaced(k, "*PART\nend post", "*PART\nrail steel"));
+    says(refusal("two.k", {}), "gives the material '8' to 'rail steel', to which line");
+    const std::string post = "*Solid section, elset=\"end post\", material=";
+    folder.write("two.inp", replaced(inp, post, post + "rubber\n" + post));
+    says(refusal("two.inp", {"end post"}), "gives the material 'nylon' to 'end post', to which line");
+    folder.write("two.inp", replaced(inp, post, "*Solid section, elset=posts, material="));
+    says(refusal("two.inp", {}), "gives a material to a set 'posts' that is not there");
+    folder.write("two.inp", inp);
     says(refusal("two.inp", {"all"}), "one and the same of 'Rail/Materials'");
   }
 
@@ -327,7 +338,8 @@ namespace
       {"Abaqus: two materials", inp, "*Material, name=steel",
        "*Elset, elset=first\n1\n*Solid section, elset=first, material=steel\n*Elset, "
        "elset=second\n2\n*Solid section, elset=second, material=\"Rubber, soft\"\n*Material, name=steel",
-       "gives the material 'rubber, soft' to hexahedra, and line 35 gives 'steel': both have the steel of "
+       "gives the material 'rubber, soft' to hexahedra of 'second', and line 35 gives 'steel' to those of "
+       "'first': both have the steel of "
        "section 'Rail'"},
       {"LS-DYNA: tied nodes", k, "*MAT_ELASTIC", "*CONSTRAINED_NODE_SET",
        "*CONSTRAINED_NODE_SET is not read"},
@@ -345,7 +357,7 @@ namespace
       {"LS-DYNA: unknown", k, "*MAT_ELASTIC", "*MAGIC", "*MAGIC is not read: it is not known here"},
       {"LS-DYNA: fields of ten", k, "*KEYWORD", "*KEYWORD I10=Y", "write fields of the usual width"},
       {"LS-DYNA: two materials", k, "       2       1\n       2       3",
-       "       2       3\n       2       3", "gives the material '8' to hexahedra, and line "},
+       "       2       3\n       2       3", "gives the material '8' to hexahedra of 'pad', and line "},
       {"LS-DYNA: set without a title beside others", k, "*SET_SEGMENT_TITLE\nsymmetry\n", "*SET_SEGMENT\n",
        "has a set 4 without a title beside 'support', which has one: is it the boundary 'symmetry'?"},
       {"LS-DYNA: another file", k, "*MAT_ELASTIC", "*INCLUDE\n", "*INCLUDE is not read"},

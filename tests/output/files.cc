@@ -4,6 +4,7 @@
 #include <tread/base/csv_table.h>
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
+#include <tread/simulation/recorders/history.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -464,7 +464,7 @@ namespace
       const std::string text = tests::complaint<InputError>([&] { scene_with(rows, columns); });
       check.that("refused: " + text, text.find(words) != text.npos);
     };
-    refused("0,7,547,94\n-3,7,547,94\n", "row 2: x_mm -3 must be at least a millimetre behind", names);
+    refused("0,7,547,94\n-3,7,547,94\n", "row 2: x_mm -3 must be at least 5 mm behind", names);
     refused("0,7e6,547,94\n", "row 1: bending_stiffness_MN_m2 7e+06 is no value of a rail", names);
     refused("0,7,0,94\n", "row 1: shear_stiffness_MN 0 is no value of a rail", names);
     refused("90000,7,547,94\n", "lies beyond the beam, which goes from", names);
@@ -490,7 +490,7 @@ namespace
           std::pair("post:3:0.5:1900", "Poisson's ratio must be from 0 to 0.49"),
           std::pair("post:3e9:0.3:1900", "Young's modulus (GPa) must be from"),
           std::pair("post:3:0.3:1.9", "density (kg per m3) must be from"),
-          std::pair("post:3:0.3:1900,post:4:0.3:1900", "the volume is there twice")})
+          std::pair("post:3:0.3:1900,Post:4:0.3:1900", "the volume is there twice")})
       {
         rail.materials         = text;
         const std::string said = tests::complaint<InputError>([&] { rail.volume_materials(); });

@@ -68,6 +68,14 @@ with tempfile.TemporaryDirectory() as folder:
     print("track modes along the path, Hz:", along)
     check.that("free ends: shear along the path", any(0.5 < frequency * 4. * height / shear_wave < 1.1 for frequency in along["free"]))
     check.that("held ends: none", found["held"] and not along["held"])
+    # Half of Young's modulus and twice the density for all of the volume: half the frequencies.
+    must_end_well(execute([*arguments_of(BLOCK, [*short, *(f"{parameter}={value}" for parameter, value in coarsest.items()), *mesh("held.msh"), "Rail/Materials=Rail:105:0.3:15600"],
+                                         path("soft"), "modes"), "--up-to", "5000"], program=program))
+    with open(os.path.join(path("soft"), "modes.csv"), encoding="utf-8") as stream:
+        soft = [float(row["frequency_Hz"]) for row in csv.DictReader(stream) if row["body"] == "track"]
+    held = [float(row["frequency_Hz"]) for row in found["held"]]
+    check.that(f"modes of a volume of its own material: {len(soft)} and {len(held)}", len(soft) == len(held) > 0)
+    check.below("half the stiffness, twice the mass: frequencies over half of the rail's, less 1", np.abs(2. * np.array(soft) / np.array(held[:len(soft)]) - 1.).max(), 1e-5)
 
     # A joint: the wheel meets the step with the kink of its path, 47 mrad, and a continuous bar keeps its force.
     coarse = ["Mesh/Finest cell (mm)=2.4", "Mesh/Fine half width (mm)=20", "Motion/Start (mm)=-14", "Motion/Rolled distance (mm)=26", "Output/Write volume=false"]
@@ -162,6 +170,8 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"a slice is refused: {said[-1] if said else ''}", any(words in line for line in said))
     said = refusal("damage/line-contact.prm", [f"Rail/Mesh file={path('wide.msh')}", "Wheel/Sector width (mm)=10.4", "Track/Foundation=beam"])
     check.that(f"a slice on a beam is refused: {said[-1] if said else ''}", any("needs a rail of some width" in line for line in said))
+    said = refusal(JOINT, [*coarse, *mesh("held.msh")])
+    check.that(f"ends that a beam would turn are refused: {said[-1] if said else ''}", any("faces named 'end' in 'Rail/Mesh file' would hold them upright" in line for line in said))
     for settings, words in ((["Motion/Start (mm)=-4"], "where a wheel begins: move 'Motion/Start (mm)' away from the gap"),
                             (["Scene/Quasi-static=true", "Scene/Density scale=4"], "a 'Rail/Mesh file' whose running surface changes along the path by a gap")):
         said = refusal(JOINT, [*coarse, *settings])

@@ -144,6 +144,20 @@ namespace
         for (const auto &of_cell : solid.cell_masses(mesh))
           for (const double of_node : of_cell)
             mass += of_node;
+        if (!refined)
+          {
+            // Cells are alike but for their material.
+            double highest[2] = {0., 0.};
+            for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+              {
+                double &own = highest[mesh.cells[c].has_own_material() ? 0 : 1];
+                own         = std::max(own, solid.cell_frequencies()[c]);
+              }
+            check.relative(name + type + ": highest frequency of the soft cells over that of steel",
+                           max(highest[1], mesh.comm) / max(highest[0], mesh.comm),
+                           std::sqrt(soft.young_modulus / soft.density * steel.density / steel.young_modulus),
+                           1e-6);
+          }
         const double pulled = strain * steel.young_modulus * width * width;
         check.relative(name + type + ": force on its top, N", sum(at_top, mesh.comm), -pulled, 1e-5);
         check.below(name + type + ": force within over that", max(inner, mesh.comm) / pulled, 1e-5);

@@ -196,7 +196,8 @@ def main() -> None:
         mesh = bar(even_lines(-half, half, options.edge), y, z, radius, 0., (ends, ends), options.hold_sides)
     elif options.end_post:
         before, behind = even_lines(-half, -0.5 * options.gap, options.edge), even_lines(0.5 * options.gap, half, options.edge)
-        mesh = with_volume(bar(before + behind, y, z, radius, 0., (ends, ends)), "end post", before[-1], behind[0])
+        within = even_lines(before[-1], behind[0], options.edge)
+        mesh = with_volume(bar(before + within[1:-1] + behind, y, z, radius, 0., (ends, ends)), "end post", before[-1], behind[0])
     else:
         mesh = joined(bar(even_lines(-half, -0.5 * options.gap, options.edge), y, z, radius, 0., (ends, False)),
                       bar(even_lines(0.5 * options.gap, half, options.edge), y, z, radius, options.step, (False, ends)))

@@ -105,6 +105,8 @@ namespace tread
     /// The named part, made where there is none yet.
     Named      &named(const std::string &name, const unsigned int line);
     MeshVolume &volume(const std::string &name);
+    /// Hexahedra of this volume have this material. @throws TextError if they have another one
+    void give_material(const std::string &volume, const std::string &material, const unsigned int line);
     /// @throws TextError if the number is taken
     void add_node(const long number, const dealii::Point<3> &place, const unsigned int line);
     void pass_over(const std::string &name, const unsigned int line);

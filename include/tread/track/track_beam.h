@@ -31,8 +31,8 @@ namespace tread
   struct LoadedPart
   {
     double from = 0., to = 0.; ///< m
-    /// What the cells have, and the beam has less, by element of the whole beam: mass, bending stiffness and
-    /// rotary inertia. Empty: nothing.
+    /// What the cells have, and the beam has less, by element of the whole beam: mass and bending stiffness.
+    /// Of its rotary inertia the beam keeps the same share as of its bending stiffness. Empty: nothing.
     std::vector<reference::BeamSection> cells;
 
     bool is_there() const

@@ -51,15 +51,38 @@ namespace tread
       const reference::BeamSection &whole = section_between(beam.section, beam.track.stretches, from, to);
       const auto                    check = [&](const char *parameter, const char *column, const double has,
                              const double in_cells) {
-        require(in_cells <= (1. - least_left) * has,
-                                   format("%s %g at x = %.0f mm: the meshed piece of the rail has %.3g there, so that at least "
-                                                             "%.3g is needed",
-                       &whole == &beam.section ? parameter : column, has,
-                                          1e3 * (beam.begin + 0.5 * (from + to)), in_cells, in_cells / (1. - least_left)));
+        require(
+                             in_cells <= (1. - least_left) * has,
+                             format(
+                               "%s %g at x = %.0f mm: of it the meshed piece of the rail alone has %.3g, so that at least %.3g "
+                                                  "is needed; mesh a lower or narrower piece where the whole rail has less",
+            &whole == &beam.section ? parameter : column, has, 1e3 * (beam.begin + 0.5 * (from + to)),
+                               in_cells, in_cells / (1. - least_left)));
       };
       check("'Track/Beam mass (kg per m)'", "'Track/Beam file': mass_kg_per_m", whole.mass, cells.mass);
       check("'Track/Beam bending stiffness (MN m2)'", "'Track/Beam file': bending_stiffness_MN_m2",
             1e-6 * whole.bending_stiffness, 1e-6 * cells.bending_stiffness);
+    }
+
+    /// Cells bend with the beam from about their height away from a free end on, where nothing holds them
+    /// along the beam. @param places of the elements' ends, m @param height of the cells, m
+    void fade_to_free_ends(std::vector<reference::BeamSection> &cells,
+                           const std::vector<double>           &places,
+                           const double                         height)
+    {
+      double largest = 0.;
+      for (const reference::BeamSection &of_element : cells)
+        largest = std::max(largest, of_element.bending_stiffness);
+      const double rise = largest / height;
+      const auto   grow = [&](const std::size_t e, const std::size_t beside) {
+        const double apart = 0.5 * std::abs(places[e] + places[e + 1] - places[beside] - places[beside + 1]);
+        cells[e].bending_stiffness =
+          std::min(cells[e].bending_stiffness, cells[beside].bending_stiffness + rise * apart);
+      };
+      for (std::size_t e = 1; e < cells.size(); ++e)
+        grow(e, e - 1);
+      for (std::size_t e = cells.size() - 1; e-- > 0;)
+        grow(e, e + 1);
     }
 
     /// The beam without the mass of the cells that move by themselves and without their stiffness as they
@@ -72,11 +95,17 @@ namespace tread
       const std::vector<unsigned int> carried = mesh.boundary_nodes(body, Boundary::support);
       const double                    bottom  = bottom_of(mesh, carried);
       // What nodes that the beam carries would weigh does not act.
-      std::vector<bool> moves(mesh.nodes.size(), true);
+      std::vector<double> moves(mesh.nodes.size(), 1.);
       for (const unsigned int i : carried)
-        moves[i] = false;
-      std::vector<ReproducibleSum<double>> mass(n), bending(n),
-        inertia(n); // times lengths: kg, N m^3, kg m^2
+        moves[i] = 0.;
+      for (const Mesh::HangingNode &h : mesh.hanging_nodes)
+        {
+          moves[h.node] = 0.;
+          for (const unsigned int parent : h.parents)
+            moves[h.node] += Mesh::HangingNode::weight * moves[parent];
+        }
+      std::vector<ReproducibleSum<double>> mass(n), bending(n); // times lengths: kg, N m^3
+      double                               height = 0.;         // of the cells over their bottom, m
       for (unsigned int c = 0; c < mesh.cells.size(); ++c)
         if (mesh.cells[c].body == body)
           {
@@ -85,9 +114,10 @@ namespace tread
             double                    moving = 0., from = corners[0][0], to = from;
             for (unsigned int a = 0; a < 8; ++a)
               {
-                moving += moves[mesh.cells[c].nodes[a]] ? cell.node_volume[a] : 0.;
-                from = std::min(from, corners[a][0]);
-                to   = std::max(to, corners[a][0]);
+                moving += moves[mesh.cells[c].nodes[a]] * cell.node_volume[a];
+                height = std::max(height, corners[a][2] - bottom);
+                from   = std::min(from, corners[a][0]);
+                to     = std::max(to, corners[a][0]);
               }
             const ElasticMaterial &material = of.solid.material_of(mesh.cells[c]);
             const double           square   = cell.volume * mean_square(corners, bottom);
@@ -99,7 +129,6 @@ namespace tread
                 {
                   mass[e].add(share * material.density * moving);
                   bending[e].add(share * material.young_modulus * square);
-                  inertia[e].add(share * material.density * square);
                 }
           }
       LoadedPart &loaded = beam.track.loaded;
@@ -107,13 +136,13 @@ namespace tread
       for (std::size_t e = 0; e < n; ++e)
         if (places[e + 1] > loaded.from && places[e] < loaded.to)
           {
-            const double            length = places[e + 1] - places[e];
-            reference::BeamSection &cells  = loaded.cells[e];
-            cells.mass                     = mass[e].value(mesh.comm) / length;
-            cells.bending_stiffness        = bending[e].value(mesh.comm) / length;
-            cells.rotary_inertia           = inertia[e].value(mesh.comm) / length;
-            check_what_is_left(beam, places[e], places[e + 1], cells);
+            const double length               = places[e + 1] - places[e];
+            loaded.cells[e].mass              = mass[e].value(mesh.comm) / length;
+            loaded.cells[e].bending_stiffness = bending[e].value(mesh.comm) / length;
           }
+      fade_to_free_ends(loaded.cells, places, dealii::Utilities::MPI::max(height, mesh.comm));
+      for (std::size_t e = 0; e < n; ++e)
+        check_what_is_left(beam, places[e], places[e + 1], loaded.cells[e]);
       return beam;
     }
 

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -229,11 +231,11 @@ namespace tread
           require(value >= least && value <= most,
                   begin + what + " must be from " + text_of(least) + " to " + text_of(most));
         };
-        in(values[0], 1e-4, 1e4, "Young's modulus (GPa)");
+        in(values[0], 1e-3, 1e4, "Young's modulus (GPa)");
         in(values[1], 0., 0.49, "Poisson's ratio");
         in(values[2], 100., 1e5, "density (kg per m3)");
         for (const VolumeMaterial &other : list)
-          require(other.volume != volume, begin + "the volume is there twice");
+          require(!boost::algorithm::iequals(other.volume, volume), begin + "the volume is there twice");
         list.push_back({volume, {1e9 * values[0], values[1], values[2]}});
       }
     return list;
