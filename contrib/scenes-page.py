@@ -47,7 +47,7 @@ GROUPS = (
     ("Crossings", "crossing/*.prm", ("crossing.md",),
      ("crossing-force.png", "crossing/uk-56E1-passage.prm at several speeds, beside a mass on the half-space's force at rest")),
     ("Joints: rails from a mesh file", "joint/*.prm", ("own-mesh.md",),
-     ("joint-force.png", "joint/insulated-joint.prm: up and down the step, and without a joint, beside two masses on a Hertz spring")),
+     ("joint-force.png", "joint/insulated-joint.prm: up and down the step, level with an end post, and without a joint, beside a mass on a Hertz spring on a beam")),
     ("Wheels that are not round", "flat/*.prm", ("wheel-flat.md",),
      ("wheel-flat-force.png", "flat/scanned-flat.prm at several speeds, beside a mass on a Hertz spring on a beam")),
     ("Test rigs", "rigs/*.prm", ("twin-disc.md",), None),

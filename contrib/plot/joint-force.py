@@ -62,7 +62,7 @@ def simple_model(run: Run, joint: Joint, velocity: float, begin: float, end: flo
     if given["Track/Foundation"] != "beam":
         return pass_over(joint, Rail(mass=Rail().mass + BARS), velocity, begin, end, LOAD, MASS, 1e-6)
     value = lambda name, unit: float(given[f"Track/{name}"]) * unit
-    track = Track(spacing=value("Sleeper spacing (m)", 1.), pad_stiffness=value("Pad stiffness (MN per m)", 1e6), pad_damping=value("Pad damping (kN s per m)", 1e3),
+    track = Track(spans=12, elements=24, spacing=value("Sleeper spacing (m)", 1.), pad_stiffness=value("Pad stiffness (MN per m)", 1e6), pad_damping=value("Pad damping (kN s per m)", 1e3),
                   sleeper_mass=value("Sleeper mass (kg)", 1.), ballast_stiffness=value("Ballast stiffness (MN per m)", 1e6),
                   ballast_damping=value("Ballast damping (kN s per m)", 1e3))
     way, force = roll(track, lambda way: joint.free_height(begin + way), velocity, end - begin, LOAD, MASS, joint.spring, begin - value("Support 0 (mm)", 1e-3), 1e-6)[:2]

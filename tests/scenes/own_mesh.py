@@ -147,7 +147,7 @@ with tempfile.TemporaryDirectory() as folder:
         ([*mesh("narrow.k")], "wide on its running surface, where rails have 5 to 1000"),
         ([*mesh("beside.msh")], "has no contact surface about y = 0 at x = -6 mm"),
         ([*mesh("none.msh")], "'Rail/Mesh file': "),
-        ([*mesh("post.k")], "gives the material '2' to hexahedra, and line"),
+        ([*mesh("post.k")], "gives the material '2' to hexahedra of 'end post', and line"),
         ([*mesh("post.k"), "Rail/Materials=rubber:1:0.4:1200"], "has no hexahedra in a volume 'rubber', to which 'Rail/Materials' gives a material; it has 'rail', 'end post'"),
         ([*mesh("post.k"), "Rail/Materials=end post:1"], "'Rail/Materials' cannot be 'end post:1'; allowed: name of the volume"),
         (["Rail/Shape=mesh"], "'Rail/Shape' mesh needs a file: 'Rail/Mesh file'"),
@@ -170,7 +170,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"a slice is refused: {said[-1] if said else ''}", any(words in line for line in said))
     said = refusal("damage/line-contact.prm", [f"Rail/Mesh file={path('wide.msh')}", "Wheel/Sector width (mm)=10.4", "Track/Foundation=beam"])
     check.that(f"a slice on a beam is refused: {said[-1] if said else ''}", any("needs a rail of some width" in line for line in said))
-    said = refusal(JOINT, [*coarse, *mesh("held.msh")])
+    said = refusal(JOINT, [*coarse, "Mesh/Fine half width (mm)=12", *mesh("held.msh")])
     check.that(f"ends that a beam would turn are refused: {said[-1] if said else ''}", any("faces named 'end' in 'Rail/Mesh file' would hold them upright" in line for line in said))
     for settings, words in ((["Motion/Start (mm)=-4"], "where a wheel begins: move 'Motion/Start (mm)' away from the gap"),
                             (["Scene/Quasi-static=true", "Scene/Density scale=4"], "a 'Rail/Mesh file' whose running surface changes along the path by a gap")):
