@@ -86,14 +86,16 @@ namespace tread
     }
 
     /// The beam without the mass of the cells that move by themselves and without their stiffness as they
-    /// bend about their bottom, which it holds. Collective.
-    BeamUnderRail without_cells(const PartOf &of, BeamUnderRail beam, const unsigned int body)
+    /// bend about their bottom, which it holds. @param carried nodes. Collective.
+    BeamUnderRail without_cells(const PartOf                    &of,
+                                BeamUnderRail                    beam,
+                                const unsigned int               body,
+                                const std::vector<unsigned int> &carried,
+                                const double                     bottom)
     {
-      const Mesh                     &mesh    = of.mesh;
-      const std::vector<double>       places  = beam_nodes(beam.track).places;
-      const std::size_t               n       = places.size() - 1;
-      const std::vector<unsigned int> carried = mesh.boundary_nodes(body, Boundary::support);
-      const double                    bottom  = bottom_of(mesh, carried);
+      const Mesh               &mesh   = of.mesh;
+      const std::vector<double> places = beam_nodes(beam.track).places;
+      const std::size_t         n      = places.size() - 1;
       // What nodes that the beam carries would weigh does not act.
       std::vector<double> moves(mesh.nodes.size(), 1.);
       for (const unsigned int i : carried)
@@ -159,7 +161,7 @@ namespace tread
     , body(body)
     , nodes(of.mesh.boundary_nodes(body, Boundary::support))
     , bottom(bottom_of(of.mesh, nodes))
-    , track(track_of(without_cells(part_of, beam, body)))
+    , track(track_of(without_cells(part_of, beam, body, nodes, bottom)))
   {
     for (const unsigned int i : nodes)
       places.push_back(place_of(of.mesh.nodes[i][0]));
