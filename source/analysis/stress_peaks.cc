@@ -109,7 +109,7 @@ namespace tread
     constexpr double round_off = 1e-9; // m
     const double     along     = region.along(p);
     return along >= region.x_begin - round_off && along <= region.x_end + round_off &&
-           std::abs(p[1] - region.y_middle) <= region.half_width + round_off &&
+           std::abs(region.beside(p)) <= region.half_width + round_off &&
            region.depth_of(p) <= region.depth;
   }
 
@@ -284,7 +284,7 @@ namespace tread
         traction[state.node]     = per_area * Vector3{normal, tangential[0], tangential[1], tangential[2]};
         const Vector3 p          = state.position;
         if (p[0] < region.x_begin || p[0] > region.x_end ||
-            std::abs(p[1] - region.y_middle) > region.half_width)
+            std::abs(region.beside(dealii::Point<3>(p[0], p[1], p[2]))) > region.half_width)
           continue;
         keep(pressure, {per_area * normal, p[0], p[1], 0., instant.time, instant.wheel_x});
         keep(shear, {per_area * norm(tangential), p[0], p[1], 0., instant.time, instant.wheel_x});

@@ -32,7 +32,12 @@ namespace tread
             "'Damage/Shear strength (MPa)' " + text_of(1e-6 * damage.shear_strength) +
               " is below that of any metal; 0 where it is not known, or at least 1");
     if (is_positioned())
-      return check_wheelset();
+      {
+        require(use == SceneUse::roll || motion.drive != Drive::torque,
+                "'Motion/Drive' cannot be torque where 'Wheelset' has a position and half-space theory "
+                "answers: it takes the creepage that is given");
+        return check_wheelset();
+      }
     require(guidance.kind == Guidance::rigid,
             "'Guidance/Kind' " + name_of(guidance.kind) +
               " moves a wheelset in its track: 'Wheelset/Lateral shift (mm)' puts it there");
@@ -81,7 +86,7 @@ namespace tread
     check_axle();
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
-          traction != 0. && !is_positioned() && !(motion.drive == Drive::creepage && motion.creepage))
+          traction != 0. && (motion.drive == Drive::torque || !(is_positioned() || motion.creepage)))
         require(std::abs(traction) < contact.friction_coefficient * contact.friction_factor(path_begin(k)),
                 (k == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
                   text_of(traction) + " must be below 'Contact/Friction coefficient' " +
@@ -276,11 +281,13 @@ namespace tread
     if (peak_stress.place == PeakPlace::range)
       require(peak_stress.from < peak_stress.to, "'Peak stress/From (mm)' " + text_in_mm(peak_stress.from) +
                                                    " must be below 'To (mm)', " + text_in_mm(peak_stress.to));
-    const double last = path_end() + 0.5 * mesh.finest_cell;
-    require(region.begin >= path_begin() && region.end <= last,
+    // A wheelset that is turned touches ahead of its axle or behind it.
+    const double ahead = is_positioned() ? placed_wheel().main_patch().region.reference[0] : 0.,
+                 first = path_begin() + ahead, last = path_end() + ahead + 0.5 * mesh.finest_cell;
+    require(region.begin >= first && region.end <= last,
             "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " +
               text_in_mm(region.end) + " mm, must lie on the path of the first wheel, which is from " +
-              text_in_mm(path_begin()) + " to " + text_in_mm(last) + " mm");
+              text_in_mm(first) + " to " + text_in_mm(last) + " mm");
     const Range fine = cubes();
     require(
       is_finest(region.begin, region.end),

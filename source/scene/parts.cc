@@ -167,6 +167,10 @@ namespace tread
       return [&scene](const dealii::Point<3> &p) {
         return scene.depth_in_rail(p);
       };
+    if (scene.is_positioned())
+      return [&scene, begin = scene.path_begin()](const dealii::Point<3> &p) {
+        return scene.placed_wheel().place_in_wheel(p, begin).below;
+      };
     return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
       const double ahead = p[0] - begin, down = height - p[2];
       return scene.surfaces().wheel_radius(std::atan2(ahead, down), p[1]) - std::hypot(ahead, down);
@@ -218,23 +222,39 @@ namespace tread
     PeakRegion                    region;
     region.x_begin     = range.begin;
     region.x_end       = range.end;
-    region.y_middle    = scene.first_contact().y;
     region.half_width  = scene.peak_half_width();
     region.depth       = section.depth;
     region.finest_cell = scene.mesh.finest_cell;
     region.reach       = semi_axes * ellipse.semi_axis_x;
     region.depth_of    = depth_in(scene, body);
-    if (body == rail_body)
-      {
-        region.along = [](const dealii::Point<3> &p) {
-          return p[0];
-        };
-        return region;
-      }
-    const double begin = scene.path_begin(), height = scene.axle_height(), radius = scene.rolling_radius();
-    region.along = [=](const dealii::Point<3> &p) {
-      return begin + radius * std::atan2(p[0] - begin, height - p[2]);
+    region.along       = [](const dealii::Point<3> &p) {
+      return p[0];
     };
+    region.beside = [y = scene.first_contact().y](const dealii::Point<3> &p) {
+      return p[1] - y;
+    };
+    const double begin = scene.path_begin();
+    if (scene.is_positioned())
+      {
+        const PlacedWheel &wheel = scene.placed_wheel();
+        region.reach += wheel.farthest_ahead();
+        region.beside = [&wheel](const dealii::Point<3> &p) {
+          return wheel.beside_path(p);
+        };
+        if (body == rail_body)
+          return region;
+        region.along = [&wheel, begin](const dealii::Point<3> &p) {
+          return wheel.place_in_wheel(p, begin).along;
+        };
+        region.beside = [&wheel, begin](const dealii::Point<3> &p) {
+          return wheel.place_in_wheel(p, begin).beside;
+        };
+      }
+    else if (body != rail_body)
+      region.along = [begin, height = scene.axle_height(),
+                      radius = scene.rolling_radius()](const dealii::Point<3> &p) {
+        return begin + radius * std::atan2(p[0] - begin, height - p[2]);
+      };
     return region;
   }
 

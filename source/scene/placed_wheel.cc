@@ -258,12 +258,77 @@ namespace tread
   }
 
 
+  namespace
+  {
+    /// How far a profile lies over a plane, at the distance t along it (m). @param s parameter where it is
+    /// near the plane's origin `from`; @param across unit vector along the plane
+    double over_plane(const ProfileCurve         &profile,
+                      double                      s,
+                      const dealii::Point<2>     &from,
+                      const dealii::Tensor<1, 2> &across,
+                      const double                t)
+    {
+      constexpr unsigned int most_steps  = 20;
+      constexpr double       near_enough = 1e-9, // m
+        least_cosine                     = 0.2;  // of the profile on the plane
+      ProfileCurve::Place p;
+      for (unsigned int step = 0; step < most_steps; ++step)
+        {
+          p              = profile.at(s);
+          const double d = (p.y - from[0]) * across[0] + (p.z - from[1]) * across[1] - t;
+          if (std::abs(d) < near_enough)
+            break;
+          s = std::clamp(
+            s - d / std::max(least_cosine * std::hypot(p.dy, p.dz), p.dy * across[0] + p.dz * across[1]), 0.,
+            profile.length());
+        }
+      return (p.z - from[1]) * across[0] - (p.y - from[0]) * across[1];
+    }
+  } // namespace
+
+
   PlacedWheel::Place PlacedWheel::place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const
   {
     if (!surfaces.rail_surface().is_constant())
       return place_in_slices(p);
-    const Vector3 arm = Vector3{p[0], p[1], p[2], 0.} - origin(patch);
-    return {arm[0], dot(arm, along(patch)), -dot(arm, normal(patch))};
+    const Vector3              arm = Vector3{p[0], p[1], p[2], 0.} - origin(patch), across = along(patch);
+    const double               beside = dot(arm, across), side = patch.is_of_other_wheel ? -1. : 1.;
+    const dealii::Point<2>     from(side * patch.region.reference[1], patch.region.reference[2]);
+    const dealii::Tensor<1, 2> in_section({side * across[1], across[2]});
+    const CurveFromAbove      &rail = surfaces.rail();
+    const double               s    = rail.parameter(std::clamp(from[0], rail.begin(), rail.end()));
+    return {arm[0], beside, over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, normal(patch))};
+  }
+
+
+  double PlacedWheel::farthest_ahead() const
+  {
+    double     farthest = 0.;
+    const auto look     = [&](const WheelPatch &patch) {
+      farthest = std::max(farthest, std::abs(patch.region.reference[0]));
+    };
+    for (const WheelPatch &patch : patches())
+      look(patch);
+    for (const TouchedPiece &piece : slices.pieces)
+      for (const TouchedPiece::Touch &touch : piece.touches)
+        look(touch.patch);
+    return farthest;
+  }
+
+
+  PlacedWheel::Place PlacedWheel::place_in_rail(const dealii::Point<3> &p) const
+  {
+    return place_in_rail(p, patches()[nearest_patch(Vector3{p[0], p[1], p[2], 0.})]);
+  }
+
+
+  double PlacedWheel::beside_path(const dealii::Point<3> &p) const
+  {
+    if (!slices.pieces.empty())
+      return nearest_piece(p).distance;
+    const Vector3     place{p[0], p[1], p[2], 0.};
+    const WheelPatch &patch = patches()[nearest_patch(place)];
+    return dot(place - origin(patch), along(patch));
   }
 
 
@@ -311,22 +376,30 @@ namespace tread
   } // namespace
 
 
+  PlacedWheel::Beside PlacedWheel::nearest_piece(const dealii::Point<3> &p) const
+  {
+    Beside nearest{nullptr, 1e300};
+    for (const TouchedPiece &piece : slices.pieces)
+      {
+        const double beside =
+          (p[1] + surfaces.rail_origin_y() - piece.y(p[0])) / std::cos(piece.inclination());
+        if (std::abs(beside) < std::abs(nearest.distance))
+          nearest = {&piece, beside};
+      }
+    return nearest;
+  }
+
+
   PlacedWheel::Place PlacedWheel::place_in_slices(const dealii::Point<3> &p) const
   {
-    const double y         = p[1] + surfaces.rail_origin_y();
-    const auto   beside_of = [&](const TouchedPiece &piece) {
-      return (y - piece.y(p[0])) / std::cos(piece.inclination());
-    };
-    const TouchedPiece &piece = *std::min_element(slices.pieces.begin(), slices.pieces.end(),
-                                                  [&](const TouchedPiece &a, const TouchedPiece &b) {
-                                                    return std::abs(beside_of(a)) < std::abs(beside_of(b));
-                                                  });
+    const double                                      y        = p[1] + surfaces.rail_origin_y();
+    const Beside                                      near     = nearest_piece(p);
     std::shared_ptr<const std::vector<ProfileCurve>> &sections = sections_at[p[0]];
     if (!sections)
       sections = surfaces.rail_sections(slices_place + p[0]);
     const auto   top   = highest_over(*sections, y);
     const double below = (top ? top->z : nearest_end(*sections, y)) - p[2];
-    return {p[0], beside_of(piece), std::cos(piece.inclination()) * below};
+    return {p[0], near.distance, std::cos(near.piece->inclination()) * below};
   }
 
 
@@ -341,6 +414,40 @@ namespace tread
     const double  angle  = std::atan2(-dot(a, cross(patch_off, off)), dot(patch_off, off));
     const Vector3 turned = dot(a, arm) * a + (norm(off) / norm(patch_off)) * patch_off;
     const Vector3 from   = turned - of_patch;
-    return {angle * patch.rolling_radius, dot(from, along(patch)), dot(from, normal(patch))};
+    // In the axes of the wheel's profile, in which z grows towards the axle.
+    const Vector3              outwards = (1. / norm(patch_off)) * patch_off, across = along(patch);
+    const double               side = patch.is_of_other_wheel ? -1. : 1., beside = dot(from, across);
+    const dealii::Point<2>     origin(side * dot(a, of_patch) - surfaces.wheel_origin_y(),
+                                      surfaces.radius() - norm(patch_off));
+    const dealii::Tensor<1, 2> in_section({side * dot(a, across), -dot(outwards, across)});
+    return {angle * patch.rolling_radius, beside,
+            dot(from, normal(patch)) -
+              over_plane(surfaces.wheel(), patch.wheel_s, origin, in_section / in_section.norm(), beside)};
+  }
+
+
+  PlacedWheel::Place PlacedWheel::place_in_wheel(const dealii::Point<3> &p, const double start_x) const
+  {
+    Place      nearest{0., 1e300, 0.};
+    const auto look = [&](const WheelPatch &patch) {
+      Place place = place_in_wheel(p, patch, start_x);
+      place.along += start_x + patch.region.reference[0];
+      if (std::abs(place.beside) < std::abs(nearest.beside))
+        nearest = place;
+    };
+    if (slices.pieces.empty())
+      for (const WheelPatch &patch : patches())
+        look(patch);
+    for (const TouchedPiece &piece : slices.pieces)
+      {
+        // Where the axle is when this part of the tread has come down to the rail.
+        const double axle = start_x + place_in_wheel(p, piece.touches.front().patch, start_x).along;
+        look(std::min_element(piece.touches.begin(), piece.touches.end(),
+                              [&](const TouchedPiece::Touch &a, const TouchedPiece::Touch &b) {
+                                return std::abs(a.axle - axle) < std::abs(b.axle - axle);
+                              })
+               ->patch);
+      }
+    return nearest;
   }
 } // namespace tread

@@ -554,11 +554,7 @@ namespace tread
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
     if (is_positioned())
-      {
-        const PlacedWheel &wheel = placed_wheel();
-        const WheelPatch  &patch = wheel.patches()[wheel.nearest_patch(Vector3{p[0], p[1], p[2], 0.})];
-        return wheel.place_in_rail(p, patch).below;
-      }
+      return placed_wheel().place_in_rail(p).below;
     const auto &height = surfaces().defect;
     return surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
   }
@@ -581,8 +577,19 @@ namespace tread
         require(values.size() == 3 && values[2] > 0.,
                 "'Output/Cells' cannot be '" + text +
                   "'; allowed: x,y,depth in mm, depth above 0, entries separated by semicolons");
-        const dealii::Point<3> at_top(1e-3 * values[0], 1e-3 * values[1], 0.);
-        points.emplace_back(at_top[0], at_top[1], depth_in_rail(at_top) - 1e-3 * values[2]);
+        const double     depth = 1e-3 * values[2];
+        dealii::Point<3> place(1e-3 * values[0], 1e-3 * values[1], 0.);
+        // Below a wheelset in a position depth is measured across the plane of contact, which may be steep.
+        constexpr unsigned int most_steps = 60;
+        constexpr double       close      = 1e-9; // m
+        for (unsigned int step = 0; step < most_steps; ++step)
+          {
+            const double up = depth_in_rail(place) - depth;
+            place[2] += up;
+            if (std::abs(up) < close)
+              break;
+          }
+        points.push_back(place);
       }
     return points;
   }

@@ -137,7 +137,7 @@ namespace tread
     require(defect.shape == "none", "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
     require(further_wheels.distances.empty(),
             "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position");
-    require(motion.angular_velocity || (motion.drive == Drive::creepage && motion.creepage),
+    require(motion.angular_velocity || motion.creepage,
             "a wheelset in a given position needs 'Motion/Angular velocity (rad per s)', or a number for "
             "'Motion/Creepage'");
     require(!(motion.angular_velocity && motion.creepage),
@@ -230,9 +230,12 @@ namespace tread
     without(!track.has_supports(), "'Track/Foundation' must be rigid, co-running or beam");
     check_track();
     without(!wheel.is_full(), "'Wheel/Shape' must be sector");
-    without(!peak_stress.is_wanted(), "'Peak stress/Region' must be none");
-    without(output.cells.empty(), "'Output/Cells' must be empty");
-    without(motion.drive != Drive::torque, "'Motion/Drive' cannot be torque");
+    require(motion.drive != Drive::torque || !wheelset.has_flexible_axle(),
+            "'Motion/Drive' cannot be torque on a flexible axle ('Wheelset/Axle torsional stiffness (MN m "
+            "per rad)', "
+            "'Axle bending stiffness (MN m2)'): where it acts on it is not known");
+    check_peak_stress();
+    recorded_cells();
     without(mesh.fine_from == mesh.fine_to, "'Mesh/Fine from (mm)' and 'Fine to (mm)' must be equal");
     const auto require_margin = [&](const WheelPatch &patch) {
       const reference::PlanarResult &s = patch.solution;

@@ -154,8 +154,9 @@ namespace tread
         for (RollingWheel &wheel : model.wheels)
           {
             wheel.hub.drive        = Drive::torque;
-            wheel.hub.drive_torque = scene.traction_coefficient(wheel.number) * scene.static_load() *
-                                     (wheel.hub.motion.z + scene.rolling_radius() - scene.axle_height());
+            wheel.hub.drive_torque = scene.traction_coefficient(wheel.number) * scene.wheelset.n_wheels() *
+                                     scene.static_load() *
+                                     (scene.rolling_radius() + wheel.hub.motion.z - wheel.hub.start()[2]);
           }
         torque_released = true;
       }

@@ -256,12 +256,12 @@ namespace
   {
     return {0.02,
             0.04,
-            0.,
             4e-3,
             10e-3,
             fine,
             5e-3,
             [](const Point<3> &p) { return p[0]; },
+            [](const Point<3> &p) { return p[1]; },
             [](const Point<3> &p) {
               return -p[2];
             }};

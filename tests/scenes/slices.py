@@ -26,7 +26,8 @@ with tempfile.TemporaryDirectory() as folder:
 
     # The same profile at every x: its points once in 60 mm.
     short = ["Mesh/Finest cell (mm)=1", "Wheelset/Lateral shift (mm)=0", "Motion/Rolled distance (mm)=3", "Output/Write volume=false",
-             "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50"]
+             "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50",
+             "Peak stress/Region=range", "Peak stress/From (mm)=-2.5", "Peak stress/To (mm)=-0.5", "Peak stress/Depth (mm)=5"]
     must_end_well(execute([*arguments_of(CURVE, short, path("points"), "contact-points"), "--shift-to", "1"], program=program))
     points = table(path("points"), "rail_profile.csv")
     with open(path("same.csv"), "w", encoding="utf-8") as file:
@@ -40,6 +41,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("cells", slices["cells"], profile["cells"], 0.03)
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "wheelset_height_m"):
         check.relative(f"a rail that does not change: {key} beside that of its profile", slices[key], profile[key], 2e-3)
+    for key in ("peak_von_mises_Pa", "peak_von_mises_depth_m", "peak_surface_von_mises_Pa", "peak_pressure_Pa", "wheel_peak_von_mises_Pa", "wheel_peak_von_mises_depth_m"):
+        check.relative(f"a rail that does not change: {key} beside that of its profile", slices[key], profile[key], 1e-2)
     check.absolute("its lateral force over the normal one", slices["lateral_force_N"] / profile["normal_force_N"],
                    profile["lateral_force_N"] / profile["normal_force_N"], 3e-4)
 
@@ -59,7 +62,11 @@ with tempfile.TemporaryDirectory() as folder:
     # Wing and nose at rest. Five cells lie over the width of the nose's patch.
     given = {float(row["y_mm"]) > 755.: row for row in rows_of(GIVEN) if (row["s_mm"], row["y_ws_mm"]) == ("160", "3.52")}
     at_rest = ["Rail/Slices place (mm)=160", "Wheelset/Lateral shift (mm)=3.52", "Mesh/Finest cell (mm)=0.19", "Motion/Rolled distance (mm)=0.1", "Output/Write volume=false"]
-    nose = run(program, NOSE, path("nose"), at_rest)
+    on_wing, on_nose = (float(given[of]["y_mm"]) - 750. for of in (True, False))  # from the origin of the slices
+    nose = run(program, NOSE, path("nose"), [*at_rest, f"Output/Cells=0,{on_wing},0.5;4.1,{on_nose},0.8"])
+    for cell, y, depth in ((1, on_wing, 0.5), (2, on_nose, 0.8)):
+        check.absolute(f"cell {cell} that is recorded: y, mm", 1e3 * nose[f"cell_{cell}_y_m"], y, 0.2)
+        check.absolute(f"cell {cell} that is recorded: depth, mm", 1e3 * nose[f"cell_{cell}_depth_m"], depth, 0.2)
     check.absolute("number of patches", len(nose["patches"]), 2, 0)
     for patch in nose["patches"]:
         row  = given[1e3 * patch["y_m"] > 755.]

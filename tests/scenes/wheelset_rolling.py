@@ -10,8 +10,11 @@ import sys
 import tempfile
 
 from tread.files import read_summary
+from tread.files import read_table
 from tread.manchester import positions, roll
+from tread.patches import Patch
 from tread.runs import ROOT, command, environment, execute
+from tread.subsurface import HalfSpace, von_mises
 from loaded_once import execute_often
 from tread_runner import Check, press_ctrl_c, rows_of, run, script
 
@@ -51,7 +54,9 @@ with tempfile.TemporaryDirectory() as folder:
     beside_half_space("tread", tread, 0.004, 0.004, 0.005)
     check.energy("tread: ", tread, 0.006)
 
-    one = run(program, ROOT_OF_FLANGE, path("1"), {**QUIET, "Motion/Rolled distance (mm)": 14})
+    # The patch rolls 7.4 mm behind the axle.
+    PEAKS = {"Peak stress/Region": "range", "Peak stress/From (mm)": -13, "Peak stress/To (mm)": -11, "Peak stress/Depth (mm)": 3}
+    one = run(program, ROOT_OF_FLANGE, path("1"), {**QUIET, **PEAKS, "Motion/Rolled distance (mm)": 14, "Output/Cells": "-12,-35.4,1"})
     beside_half_space("flange root", one, 0.002, 0.006, 0.0125)
     check.energy("flange root: ", one, 1e-3)
     lateral, vertical = force_in_track(one)
@@ -65,6 +70,28 @@ with tempfile.TemporaryDirectory() as folder:
                    1e-3 * one["patches"][0]["normal_force_N"], 0.01)
     check.that("flange root: no shear beyond the friction bound", all(
         math.hypot(r["shear_x_MPa"], r["shear_y_MPa"]) <= 0.3 * r["pressure_MPa"] * (1 + 1e-6) for r in rows))
+
+    # Stress below the inclined surfaces, beside that of the half-space under its own tractions (known, but for the curved surfaces, of 13 mm
+    # on the rail, and the layers of 0.33 mm at the peak: about half as much again as was found).
+    table = dict(read_table(os.path.join(path("1"), "reference_patch.csv")))
+    table["y_mm"] = (table["y_mm"] - table["y_mm"].mean()) / math.cos(one["patches"][0]["angle_rad"])
+    below = HalfSpace(Patch("half-space", table, ("pressure_MPa", "shear_x_MPa", "shear_y_MPa", "slip_x_m_per_s", "slip_y_m_per_s")), poisson=0.28, parts=1)
+    for body, file, allowed in (("rail", "peak_stress.csv", (0.02, 0.06, 0.012, 0.01, 0.01, 0.01)), ("wheel", "peak_stress_wheel.csv", (0.02, 0.09, 0.04, 0.05, 0.055, 0.055))):
+        found = rows_of(path("1"), file)
+        del found[1]  # the uppermost layer, where the half-space has a minimum between the surface and the largest stress
+        check.that(f"flange root, {body}: layers lie along the surface", all(
+            abs(row["depth_mm"] - depth) < 0.02 for row, depth in zip(found, (0., 0.495, 0.99, 1.65, 2.31, 2.97))) and len(found) == 6)
+        for row, limit in zip(found, allowed):
+            depth = row["depth_mm"]
+            check.relative(f"flange root, {body}: von Mises stress {depth:.2f} mm below the surface, MPa", row["von_mises_MPa"],
+                           max(von_mises(below.stress(x, y, depth)) for x in below.x[::3] for y in below.y[::2]), limit)
+    check.relative("flange root: largest pressure of a node in all steps, MPa", 1e-6 * one["peak_pressure_Pa"], 1e-6 * one["max_pressure_Pa"], 0.02)
+    check.relative("flange root: the largest of the table", one["peak_von_mises_Pa"], 1e6 * max(row["von_mises_MPa"] for row in rows_of(path("1"), "peak_stress.csv")[1:]), 1e-6)
+    check.that("flange root: the cell that is recorded is the one at 1 mm", abs(1e3 * one["cell_1_depth_m"] - 1.) < 0.34 and abs(1e3 * one["cell_1_x_m"] + 12.) < 0.34
+               and abs(1e3 * one["cell_1_y_m"] + 35.4) < 0.35)
+    # Between its rows the history has most of what all steps have.
+    in_rows = 1e-6 * max(row["cell_1_von_mises_Pa"] for row in rows_of(path("1"), "cells.csv")) / rows_of(path("1"), "peak_stress.csv")[3]["von_mises_MPa"]
+    check.that(f"flange root: largest stress of that cell over that of its layer, {in_rows:.3f}", 0.85 < in_rows < 1.)
 
     # Ranks, and a run in two parts.
     short = {**QUIET, "Mesh/Finest cell (mm)": 0.42, "Motion/Rolled distance (mm)": 3, "Contact/Tolerance": 1e-12,
@@ -133,8 +160,8 @@ with tempfile.TemporaryDirectory() as folder:
             print(failed.returncode, failed.stderr)
 
     must_fail("cells too large for the patch", ["Mesh/Finest cell (mm)=1"], "Mesh/Finest cell (mm)", "too large for a patch", "at most")
-    must_fail("a torque", ["Motion/Angular velocity (rad per s)=by the drive", "Motion/Creepage=0.001", "Motion/Drive=torque"],
-              "Motion/Angular velocity (rad per s)")
+    must_fail("peaks where the patch does not come", [f"{name}={value}" for name, value in {**PEAKS, "Peak stress/To (mm)": -2}.items()], "Peak stress", "must lie on the path", "-27.38")
+    must_fail("a torque and a speed", ["Motion/Drive=torque", "Motion/Hold distance (mm)=1"], "Motion/Angular velocity (rad per s)", "Motion/Drive")
     must_fail("a track", ["Track/Foundation=two-layer"], "Track/Foundation", "Wheelset")
     must_fail("a full wheel", ["Wheel/Shape=full"], "Wheel/Shape", "Wheelset")
     must_fail("a defect", ["Defect/Shape=dip", "Defect/Length (mm)=20", "Defect/Depth (mm)=0.1"], "Defect/Shape")

@@ -16,11 +16,12 @@ namespace tread
   struct PeakRegion
   {
     double x_begin, x_end; ///< along the path
-    double y_middle, half_width, depth;
+    double half_width, depth;
     double finest_cell; ///< its thickness tells layers apart
     double reach;       ///< stresses are looked at while a wheel is this near to the region
-    /// Place along the path of a point in the reference configuration, and its depth below the surface.
-    std::function<double(const dealii::Point<3> &)> along, depth_of;
+    /// Place along the path of a point in the reference configuration, how far it is beside the path, and its
+    /// depth below the surface.
+    std::function<double(const dealii::Point<3> &)> along, beside, depth_of;
   };
 
   /// The largest value of a quantity over a region and over all time, SI units.

@@ -98,8 +98,8 @@ namespace tread
     Body make_rail(const Scene &scene) const;
     Body make_wheel(const Scene &scene) const;
 
-    /// Whether a place in a body is at most `beside` to the side of a patch and `below` its surface, and
-    /// where along the path it is, on the wheel from where it touches at the start (m).
+    /// How far a place in a body is `beside` a patch, in its plane, and `below` the running surface, across
+    /// this plane, and where along the path it is, on the wheel from where it touches at the start (m).
     struct Place
     {
       double along, beside, below;
@@ -107,6 +107,15 @@ namespace tread
     Place place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// @param start_x of the wheel in the reference configuration
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
+    /// Of the patch that is nearest.
+    Place place_in_rail(const dealii::Point<3> &p) const;
+    /// Of the patch, or the touch of slices, that is nearest; `along` is where this part of the tread meets
+    /// the rail.
+    Place place_in_wheel(const dealii::Point<3> &p, const double start_x) const;
+    /// How far a place of the rail is beside the nearest path of a patch (m).
+    double beside_path(const dealii::Point<3> &p) const;
+    /// How far a patch lies ahead of the axle, or behind it, on all of the way (m).
+    double farthest_ahead() const;
 
     const WheelOnRail surfaces;
 
@@ -131,7 +140,14 @@ namespace tread
     Body rail_of_slices(const Scene &scene) const;
     Body wheel_of(const Scene &scene, const Side &side) const;
 
-    /// The same of a rail of slices, in the piece that is nearest.
+    /// Of slices, the piece that is nearest, and how far a place is beside its path (m).
+    struct Beside
+    {
+      const TouchedPiece *piece;
+      double              distance;
+    };
+    Beside nearest_piece(const dealii::Point<3> &p) const;
+    /// Where a place is in it.
     Place place_in_slices(const dealii::Point<3> &p) const;
 
     std::vector<Side> sides;

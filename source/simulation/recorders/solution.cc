@@ -43,9 +43,9 @@ namespace tread
     const Scene &scene = model.scene;
     if (!(std::abs(model.position() - scene.path_end()) <= 0.5 * scene.mesh.finest_cell))
       return;
-    const bool differs_from_start = scene.guidance.kind != Guidance::rigid ||
-                                    scene.wheelset.has_flexible_axle() || scene.rail.is_sliced() ||
-                                    !scene.contact.friction_places.empty();
+    const bool differs_from_start =
+      scene.guidance.kind != Guidance::rigid || scene.wheelset.has_flexible_axle() ||
+      scene.rail.is_sliced() || scene.motion.drive == Drive::torque || !scene.contact.friction_places.empty();
     if (differs_from_start && scene.is_positioned() && !model.wheelset.has_moved())
       place_wheelset();
     const auto   states    = model.contact_states();
@@ -83,7 +83,8 @@ namespace tread
     for (const RollingWheel &wheel : model.wheels)
       {
         wheels[wheel.number].patch = patches[wheel.number];
-        folder.write_table(RunFolder::table_of_wheel("patch", wheel.number), patch_columns(), patches[wheel.number]);
+        folder.write_table(RunFolder::table_of_wheel("patch", wheel.number), patch_columns(),
+                           patches[wheel.number]);
       }
     taken = true;
   }
@@ -102,7 +103,8 @@ namespace tread
   {
     if (average().n_steps() > 0)
       for (const RollingWheel &wheel : model.wheels)
-        report.folder.write_table(RunFolder::table_of_wheel("patch_averaged", wheel.number), patch_columns(), wheels[wheel.number].average.nodes());
+        report.folder.write_table(RunFolder::table_of_wheel("patch_averaged", wheel.number), patch_columns(),
+                                  wheels[wheel.number].average.nodes());
   }
 
 
