@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
 #include <tread/output/quality.h>
+#include <tread/output/summary_keys.h>
 
 #include <cmath>
 #include <cstdio>
@@ -100,6 +101,20 @@ namespace tread
        }}};
     return columns;
   }
+
+
+  namespace
+  {
+    SummaryKeys keys_of_quality()
+    {
+      SummaryKeys keys;
+      for (const Column<Quality> &column : quality_columns())
+        keys.push_back({heading(column), column.about});
+      return keys;
+    }
+
+    const bool keys_of_quality_are_known = know_summary_keys(SummaryGroup::quality, keys_of_quality());
+  } // namespace
 
 
   void Quality::add_to(Summary &summary) const

@@ -12,11 +12,29 @@
 
 namespace tread
 {
+  namespace
+  {
+    const bool keys_of_references_are_known = know_summary_keys(
+      SummaryGroup::references,
+      {{"max_pressure_Pa_half_space_uncertainty",
+        "How far the half-space's largest pressure may lie from the limit of small elements; likewise behind "
+        "the names of other figures"},
+       {"reference", "Figures of the summary with what they are compared with: by name and source"},
+       {"reference/max_pressure_Pa/Hertz/value",
+        "What the figure is compared with: of Hertz's ellipse under the normal force (the load of a wheel "
+        "that has lifted off), or of the half-space in steady rolling"},
+       {"reference/max_pressure_Pa/Hertz/source", "Hertz or half-space"},
+       {"reference/max_pressure_Pa/Hertz/relative_difference",
+        "Figure less this value, over the value; null where the value is as good as zero"},
+       {"reference/max_pressure_Pa/Hertz/uncertainty",
+        "Of a half-space's value: how far it may lie from the limit of small elements"}});
+  } // namespace
+
+
   void Summary::require_meaning(const std::string &name)
   {
-    Assert(!about_summary_key(name).empty(),
-           dealii::ExcMessage("source/output/summary_keys.cc does not say what '" + name +
-                              "' of summary.json means"));
+    Assert(!about_summary_key(name).empty(), dealii::ExcMessage("no call of know_summary_keys() says what '" +
+                                                                name + "' of summary.json means"));
     (void)name;
   }
 

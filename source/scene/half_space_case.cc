@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/analysis/damage_index.h>
 #include <tread/geometry/rail_profile.h>
+#include <tread/output/summary_keys.h>
 #include <tread/reference/errors.h>
 #include <tread/reference/fatigue.h>
 #include <tread/scene/half_space_case.h>
@@ -287,6 +289,38 @@ namespace tread
     answer.patch.frictional_power = half_space.frictional_power.value;
     return answer;
   }
+
+
+  namespace
+  {
+    SummaryKeys keys_of_damage_indices()
+    {
+      SummaryKeys keys;
+      for (const DamageIndexEntry &index : damage_indices())
+        keys.push_back({index.key, index.about});
+      return keys;
+    }
+
+    const bool keys_of_answers_are_known =
+      know_summary_keys(
+        SummaryGroup::first_wheel,
+        {{"first_contact_y_m", "Where wheel and rail touch first without load and defect, from the middle of "
+                               "the rail's top, positive to the field side"},
+         {"semi_axis_x_m", "Half the length of the patch along the rail, from the first to the last node in "
+                           "contact and a cell, " +
+                             over_a_cell},
+         {"semi_axis_y_m", "Half its width across the rail, likewise, " + over_a_cell},
+         {"pressure_semi_axis_x_m",
+          "Semi-axis along the rail of Hertz's ellipse with the same second moment of pressure, " +
+            over_a_cell},
+         {"pressure_semi_axis_y_m", "The same across the rail, " + over_a_cell},
+         {"pressure_centre_x_m",
+          "Where the resultant of the pressure acts, along the rail ahead of the axle, " + over_a_cell},
+         {"pressure_centre_y_m", "The same across, from the middle of the rail's top, " + over_a_cell},
+         {"lateral_coefficient", "Resultant of the lateral shear stress over that of the pressure, " +
+                                   over_a_cell + "; where the half-space solution has a lateral force"}}) &&
+      know_summary_keys(SummaryGroup::damage_indices, keys_of_damage_indices());
+  } // namespace
 
 
   void summarise_damage(Summary &summary, const Scene &scene, const std::vector<DamageIndex::Load> &loads)

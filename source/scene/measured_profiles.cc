@@ -3,6 +3,7 @@
 #include <tread/base/input_error.h>
 #include <tread/output/columns.h>
 #include <tread/output/run_folder.h>
+#include <tread/output/summary_keys.h>
 #include <tread/reference/elastic.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
@@ -28,7 +29,13 @@ namespace tread
 
     const bool measured_profiles_are_known =
       know_table(describe("measured_wheel.csv", measured_profile_columns())) &&
-      know_table(describe("measured_rail.csv", measured_profile_columns()));
+      know_table(describe("measured_rail.csv", measured_profile_columns())) &&
+      know_summary_keys(SummaryGroup::words,
+                        {{"wheel_profile_largest_change_m",
+                          "By how much 'Wheel/Smoothing length (mm)' moved a point of the measured tread at "
+                          "most, at right angles to it; only where it is above 0"},
+                         {"rail_profile_largest_change_m",
+                          "The same of 'Rail/Smoothing length (mm)' and the measured head"}});
   } // namespace
 
 

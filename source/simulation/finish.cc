@@ -3,6 +3,7 @@
 #include <tread/base/format.h>
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
+#include <tread/output/summary_keys.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/comparison.h>
@@ -17,6 +18,65 @@
 
 namespace tread
 {
+  namespace
+  {
+    const bool keys_of_finish_are_known =
+      know_summary_keys(
+        SummaryGroup::words,
+        {{"note", "Why there is no comparison with steady rolling, or what stands against it, in words; only "
+                  "where there is something to say"},
+         {"assumptions",
+          "What the run takes for granted, in words: scaled density, damping, the type of start, ..."},
+         {"unused_parameters",
+          "What the scene sets and another of its parameters leaves without effect, in words"}}) &&
+      know_summary_keys(
+        SummaryGroup::size,
+        {{"contact_unconverged_steps",
+          "Steps in which the iteration of the contact ended before 'Contact/Tolerance' was reached"},
+         {"cells", "Number of cells of all bodies"},
+         {"windows", "Number of places at which the window of fine cells has stood"},
+         {"window_loss_J", "Energy that fine cells had and others do not carry when the window moves"},
+         {"plastic_cells", "Number of cells that can yield"},
+         {"unknowns", "Three for each node that does not hang"},
+         {"steps", "Time steps of the shortest level, of all passages"},
+         {"time_step_s", "Of the shortest level, at the end"},
+         {"density_scale", "'Scene/Density scale'"},
+         {"added_mass_rail_kg", "Mass that 'Time stepping/Least step (us)' added to the fastest cells of the "
+                                "rail, the largest of all windows of fine cells"},
+         {"added_mass_rail_share", "The same over the mass of the rail's cells"},
+         {"added_mass_wheels_kg", "The same of all wheels' cells"},
+         {"added_mass_wheels_share", "The same over the mass of these cells"},
+         {"added_mass_error_estimate",
+          "Inertia of what was added at a wheel and in the rail, at 1 kHz, over the stiffness of the "
+          "contact: about the relative error of the contact force there"},
+         {"inertia_error_estimate", "Relative error by inertia in steady rolling, about: density scale x "
+                                    "square of the speed over that of Rayleigh waves in the slower body"},
+         {"rolled_m", "How far the wheel has rolled; of several passages in the last one"},
+         {"rolled_patch_lengths", "The same, from the onset of a torque on, over the length of the patch "
+                                  "under the normal force, by Hertz or half-space theory"},
+         {"long_enough_to_be_steady", "Whether that is enough for steady rolling: 1.5 lengths after a start "
+                                      "with tractions if no cell can yield, otherwise 3"}}) &&
+      know_summary_keys(SummaryGroup::passages,
+                        {{"passages", "Wheels that roll over the rail one after the other: "
+                                      "'Motion/Passages', or fewer where its steel failed"}}) &&
+      know_summary_keys(
+        SummaryGroup::cost,
+        {{"wall_s_start", "Wall time of the equilibrium at the start, of the last passage"},
+         {"wall_s_internal_forces",
+          "Wall time of forces of cells and supports in all steps, of the slowest rank"},
+         {"wall_s_contact", "Wall time of search and solution of the contact, likewise"},
+         {"wall_s_communication",
+          "Wall time in which ranks exchange forces and wait for each other, likewise"},
+         {"wall_s_nodes", "Wall time of moving nodes and hubs, likewise"},
+         {"element_updates", "Evaluations of cells in all time steps on all ranks"},
+         {"element_updates_per_s", "The same over the wall time of internal forces"},
+         {"cells_and_nodes_bytes", "Memory of mesh, cells and nodes on all ranks"},
+         {"imbalance_of_cells", "Largest number of cells of a rank over the mean"},
+         {"ranks_of_contact",
+          "So many of the ranks share the sweeps over the patch, as many as have enough to do"}});
+  } // namespace
+
+
   Simulation::Rolled Simulation::add_size(Summary &summary, const double normal_force) const
   {
     summary.set("contact_unconverged_steps", model.contact.n_unconverged_steps());

@@ -2,6 +2,7 @@
 #include <tread/base/version.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
+#include <tread/output/summary_keys.h>
 #include <tread/reference/subsurface.h>
 #include <tread/reference/transient.h>
 #include <tread/scene/half_space_case.h>
@@ -22,6 +23,25 @@ namespace tread
 {
   namespace
   {
+    const bool keys_of_half_space_are_known = know_summary_keys(
+      SummaryGroup::half_space,
+      {{"wheel_max_von_mises_Pa",
+        "Largest von Mises stress of the wheel in the plane along the rail through the first contact, from a "
+        "twentieth to one and a half of the smaller semi-axis deep"},
+       {"wheel_max_von_mises_x_m", "Where it was, forward from the first contact"},
+       {"wheel_max_von_mises_depth_m", "Where it was, from the surface"},
+       {"rail_max_von_mises_Pa", "The same of the rail"},
+       {"rail_max_von_mises_x_m", "Where it was, forward from the first contact"},
+       {"rail_max_von_mises_depth_m", "Where it was, below the surface"},
+       {"approach_m", "Of distant points of wheel and rail to each other under the load"},
+       {"element_size_m", "Edge of the elements in rolling direction, of the finer grid"},
+       {"elements", "Number of them in contact"},
+       {"normal_iterations", "Steps of conjugate gradients for the pressure on the finer grid"},
+       {"normal_residual", "Largest error of the gap in contact, over the approach"},
+       {"tangential_iterations", "Steps of Newton's method for the shear stress on the finer grid"},
+       {"tangential_residual",
+        "Largest violation of Coulomb's law, over friction coefficient and largest pressure"}});
+
     using reference::Body;
     using reference::Stress;
     using Point = std::array<double, 3>; // x, y, depth

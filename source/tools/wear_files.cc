@@ -8,6 +8,7 @@
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
+#include <tread/output/summary_keys.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/tools/wear_files.h>
@@ -26,6 +27,25 @@ namespace tread
     constexpr const char *checkpoint = "wear.checkpoint";
     /// To be counted up when the order or the meaning of what is stored changes.
     constexpr const char *layout = "tread-wear-1";
+
+    const bool keys_of_profile_wear_are_known = know_summary_keys(
+      SummaryGroup::profile_wear,
+      {{"contacts", "Contacts of a block of passages, rows of the table of tread wear"},
+       {"wear_steps", "Steps in which the profiles wore"},
+       {"wear_steps_refused", "Those that changed the pressure too much and were taken again, shorter"},
+       {"rail_passages", "'Profile wear/Passages' of wheels over the rail"},
+       {"wheel_turns", "'Profile wear/Wheel turns' meanwhile"},
+       {"rail_wear_depth_m", "Largest depth that the rail has worn"},
+       {"wheel_wear_depth_m", "Largest depth that the wheel has worn"},
+       {"rail_wear_area_m2",
+        "Area between the rail's profile and that at the start: volume on a metre of way"},
+       {"wheel_wear_area_m2",
+        "Area between the wheel's profile and that at the start: volume on a metre of its circumference"},
+       {"rail_wear_area_by_law_m2", "The same by 'Damage/Wear law', summed over the steps"},
+       {"wheel_wear_area_by_law_m2", "The same of the wheel"},
+       {"rail_friction_work_J_per_m", "Work of friction in all passages, on a metre of way"},
+       {"wheel_friction_work_J_per_m", "Work of friction in all turns, on a metre of the circumference"},
+       {"max_pressure_at_start_Pa", "Largest pressure of all contacts on the new profiles"}});
 
     struct ContactColumn
     {

@@ -3,6 +3,7 @@
 #include <tread/base/version.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
+#include <tread/output/summary_keys.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/steady_damage_tables.h>
@@ -17,6 +18,15 @@
 
 namespace tread
 {
+  namespace
+  {
+    const bool keys_of_wheelset_reference_are_known =
+      know_summary_keys(SummaryGroup::half_space,
+                        {{"solutions", "Of a wheelset in a position: half-space solutions in the search for "
+                                       "the height that carries the load"}});
+  } // namespace
+
+
   void run_wheelset_reference(const Scene &scene, const std::string &path, const MPI_Comm comm)
   {
     Progress progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);

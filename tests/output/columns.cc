@@ -15,6 +15,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -378,6 +379,14 @@ namespace
              {"pressure_MPa", 1.7}});
   }
 
+  /// Keys as files make them known that set them, in an order that is not that of the page.
+  const bool test_keys_are_known =
+    know_summary_keys(SummaryGroup::recorded, {{"cell_1_test_m", "Of a cell"}}) &&
+    know_summary_keys(SummaryGroup::cost,
+                      {{"test_c_rad_per_s", "First of its call"}, {"test_a_bytes", "Second of its call"}}) &&
+    know_summary_keys(SummaryGroup::cost, {{"test_b_per_s", "Before those, by its name"}}) &&
+    know_summary_keys(SummaryGroup::run, {{"wall_s_test", "Of the first group"}});
+
   /// What summary.json means: each key once, whatever number a name has, and units where they are not at the
   /// end.
   void check_summary_keys(tests::Check &check)
@@ -392,14 +401,21 @@ namespace
       }
     check.absolute("summary.json: each key stands once", units.size(), table.columns.size(), 0.);
     check.that("summary.json: each key has a meaning", all_mean_something);
+    std::vector<std::string> order;
+    for (const TableDescription::Line &key : table.columns)
+      if (key.heading.find("test") != std::string::npos)
+        order.push_back(key.heading);
+    check.that("summary.json: groups, then calls by their first keys, then as the call has them",
+               order == std::vector<std::string>{"wall_s_test", "test_b_per_s", "test_c_rad_per_s",
+                                                 "test_a_bytes", "cell_1_test_m"});
     for (const auto &[key, unit] :
          std::map<std::string, std::string>{{"normal_force_N", "N"},
                                             {"creepage", ""},
-                                            {"angular_velocity_rad_per_s", "rad_per_s"},
+                                            {"test_c_rad_per_s", "rad_per_s"},
                                             {"wall_s", "s"},
-                                            {"wall_s_internal_forces", "s"},
-                                            {"element_updates_per_s", "per_s"},
-                                            {"cells_and_nodes_bytes", "bytes"},
+                                            {"wall_s_test", "s"},
+                                            {"test_b_per_s", "per_s"},
+                                            {"test_a_bytes", "bytes"},
                                             {"max_pressure_Pa_half_space_uncertainty", "Pa"},
                                             {"reference/max_pressure_Pa/Hertz/value", "Pa"},
                                             {"reference/max_pressure_Pa/Hertz/relative_difference", ""}})
@@ -407,13 +423,19 @@ namespace
                  units.count(key) && units[key] == unit);
     for (const auto &[key, like] : std::map<std::string, std::string>{
            {"wheel_3_creepage", "creepage"},
-           {"cell_12_depth_m", "cell_1_depth_m"},
+           {"cell_12_test_m", "cell_1_test_m"},
            {"creepage_half_space_uncertainty", "max_pressure_Pa_half_space_uncertainty"},
            {"reference/creepage/half-space/value", "reference/max_pressure_Pa/Hertz/value"}})
       check.that("summary.json: " + key + " means what " + like + " does",
                  !about_summary_key(key).empty() && about_summary_key(key) == about_summary_key(like));
     for (const std::string key : {"made_up_N", "wheel_3_steps", "cell_x_m"})
       check.that("summary.json: nothing is known of " + key, about_summary_key(key).empty());
+
+    // Of another group, and with another meaning.
+    know_summary_keys(SummaryGroup::half_space, {{"test_b_per_s", "Once more"}});
+    check.that("summary.json: a key that is described twice is refused by its name",
+               tests::complaint<std::logic_error>(keys_of_summary) ==
+                 "'test_b_per_s' of summary.json is described twice");
   }
 } // namespace
 

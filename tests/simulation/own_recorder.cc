@@ -77,7 +77,8 @@ namespace
   };
 
   const bool known = know_table(describe("hub_power.csv", hub_power_columns())) &&
-                     know_summary_key("largest_hub_power_W", "Largest of the rows of hub_power.csv");
+                     know_summary_keys(SummaryGroup::recorded,
+                                       {{"largest_hub_power_W", "Largest of the rows of hub_power.csv"}});
 
 
   /// Text of an attribute of a column in run.h5.

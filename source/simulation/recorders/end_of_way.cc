@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/output/summary_keys.h>
 #include <tread/simulation/recorders/end_of_way.h>
 
 #include <algorithm>
 
 namespace tread
 {
+  namespace
+  {
+    const bool keys_of_ripple_are_known = know_summary_keys(
+      SummaryGroup::first_wheel,
+      {{"normal_force_ripple_share", "Largest deviation of the normal force of a step from its mean over the "
+                                     "last 10 mm of the path, over this mean"},
+       {"tangential_force_ripple_share",
+        "Amplitude of the force along and across the rail about straight lines over the last 10 mm of the "
+        "path, that of a sine with the same mean square, over the mean normal force"}});
+  } // namespace
+
+
   void MeanForce::add(const Vector3 force)
   {
     ++n;

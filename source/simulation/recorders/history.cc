@@ -2,6 +2,7 @@
 #include <tread/base/input_error.h>
 #include <tread/dynamics/parts/rail_base.h>
 #include <tread/dynamics/parts/rail_on_beam.h>
+#include <tread/output/summary_keys.h>
 #include <tread/scene/parts.h>
 #include <tread/simulation/recorders/history.h>
 #include <tread/track/supports.h>
@@ -13,6 +14,13 @@ namespace tread
 {
   namespace
   {
+    const bool keys_of_history_are_known = know_summary_keys(
+      SummaryGroup::recorded,
+      {{"cell_1_x_m", "Middle of the cell of the rail that 'Output/Cells' names, along the rail"},
+       {"cell_1_y_m", "The same across"},
+       {"cell_1_depth_m", "The same below the surface"},
+       {"history_crc32", "CRC-32 of history.csv as the run wrote it"}});
+
     HistoryParts parts_of(const Model &model)
     {
       const Scene &scene = model.scene;

@@ -1,11 +1,42 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/output/summary_keys.h>
 #include <tread/simulation/recorders/impact_record.h>
 
 #include <utility>
 
 namespace tread
 {
+  namespace
+  {
+    const bool keys_of_impacts_are_known = know_summary_keys(
+      SummaryGroup::impacts,
+      {{"largest_normal_force_N",
+        "Largest normal force on the first wheel, mean over an interval of the history"},
+       {"largest_normal_force_x_m", "Where the wheel was at the end of that interval"},
+       {"largest_normal_force_over_static", "This force over the static load of a wheel"},
+       {"largest_normal_force_at_end",
+        "Whether it is that of the last interval: a run that had gone on might have exceeded it"},
+       {"least_normal_force_N",
+        "Least normal force on the first wheel, mean over an interval of the history"},
+       {"least_normal_force_x_m", "Where the wheel was at the end of that interval"},
+       {"least_normal_force_over_static", "This force over the static load of a wheel"},
+       {"least_normal_force_at_end",
+        "Whether it is that of the last interval: a run that had gone on might have fallen below it"},
+       {"airborne_s", "How long the first wheel was in the air: intervals of the history without any force"},
+       {"largest_pad_force_N", "Largest compressive force in the pad of a recorded support at the end of an "
+                               "interval of the history"},
+       {"largest_pad_force_x_m", "Where the first wheel was then"},
+       {"largest_pad_force_support", "Number of that support"},
+       {"largest_pad_force_at_end", "Whether it is that of the last interval"},
+       {"largest_ballast_force_N", "Largest compressive force in the ballast under a recorded support at the "
+                                   "end of an interval of the history"},
+       {"largest_ballast_force_x_m", "Where the first wheel was then"},
+       {"largest_ballast_force_support", "Number of that support"},
+       {"largest_ballast_force_at_end", "Whether it is that of the last interval"}});
+  } // namespace
+
+
   void ImpactRecord::add(const HistoryRow &row, const double seconds)
   {
     const double force = row.wheels.front().force[2];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/output/summary_keys.h>
 #include <tread/scene/parts.h>
 #include <tread/simulation/recorders/stresses.h>
 #include <tread/track/supports.h>
@@ -136,9 +137,63 @@ namespace tread
 
   namespace
   {
-    const bool stresses_are_known = know_table(describe("strip.csv", strip_columns())) &&
-                                    know_table(describe("peak_stress.csv", peak_columns())) &&
-                                    know_table(describe("rail_seats.csv", rail_seat_columns()));
+    /// The largest value of a quantity in the region of 'Peak stress' and over all steps. @param how it is
+    /// found
+    void add_peak(SummaryKeys       &keys,
+                  const std::string &name,
+                  const std::string &what,
+                  const std::string &how = "")
+    {
+      const bool        of_wheel = name.rfind("wheel_", 0) == 0;
+      const std::string of_region =
+        of_wheel ? " in the part of its tread that rolls over the region" : " in the region";
+      keys.push_back({name + "_Pa", "Largest " + what + of_region + " of 'Peak stress', of all steps" + how});
+      keys.push_back({name + "_x_m", of_wheel ? "Where that part of the tread meets the rail, along the rail"
+                                              : "Where it was, along the rail"});
+      keys.push_back({name + "_y_m", "Where it was, across"});
+      if (what.find("cells") != std::string::npos)
+        keys.push_back({name + "_depth_m", "Where it was: half the height of its layer, from the surface"});
+      keys.push_back({name + "_time_s", "When it was"});
+    }
+
+    SummaryKeys keys_of_peaks()
+    {
+      const std::string recovered =
+        ", recovered at its nodes from tractions and stretch, or from below where steel has yielded";
+      SummaryKeys keys;
+      add_peak(keys, "peak_von_mises", "von Mises stress of the layers of the rail's cells");
+      add_peak(keys, "peak_surface_von_mises", "von Mises stress at the rail's surface", recovered);
+      add_peak(keys, "peak_surface_von_mises_from_tractions", "von Mises stress at the rail's surface",
+               ", from the stretch of a face of it and the tractions on it");
+      add_peak(keys, "peak_pressure", "pressure of a node of the rail");
+      add_peak(keys, "peak_shear", "shear stress of a node of the rail");
+      add_peak(keys, "wheel_peak_von_mises", "von Mises stress of the layers of the first wheel's cells");
+      add_peak(keys, "wheel_peak_surface_von_mises", "von Mises stress at the first wheel's surface",
+               recovered);
+      return keys;
+    }
+
+    const bool stresses_are_known =
+      know_table(describe("strip.csv", strip_columns())) &&
+      know_table(describe("peak_stress.csv", peak_columns())) &&
+      know_table(describe("rail_seats.csv", rail_seat_columns())) &&
+      know_summary_keys(
+        SummaryGroup::recorded,
+        {{"strip_max_von_mises_Pa", "Largest von Mises stress in strip.csv: of the rail's cells under the "
+                                    "path at the ends of the history's intervals"},
+         {"strip_max_von_mises_x_m", "Where it was: middle of the surface cell above it, along the rail"},
+         {"strip_max_von_mises_y_m", "Where it was: middle of its cell, across"},
+         {"strip_max_von_mises_depth_m", "Where it was: middle of its cell, below the surface"},
+         {"strip_max_von_mises_time_s", "When it was"}}) &&
+      know_summary_keys(
+        SummaryGroup::recorded,
+        {{"largest_plastic_strain", "Largest equivalent plastic strain of the rail's cells, at the end"},
+         {"largest_plastic_strain_x_m", "Where it is: middle of its cell as meshed, along the rail"},
+         {"largest_plastic_strain_y_m", "The same across"},
+         {"largest_plastic_strain_depth_m", "The same below the surface"},
+         {"wheel_largest_plastic_strain",
+          "Largest equivalent plastic strain of the first wheel's cells, at the end"}}) &&
+      know_summary_keys(SummaryGroup::peaks, keys_of_peaks());
 
     /// @param stress Pa; @param x, y, depth m
     std::string line_of_stress(const std::string &what,

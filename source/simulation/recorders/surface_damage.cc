@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/output/summary_keys.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/steady_damage_tables.h>
 #include <tread/simulation/recorders/surface_damage.h>
@@ -9,6 +10,15 @@
 
 namespace tread
 {
+  namespace
+  {
+    const bool keys_of_surface_damage_are_known =
+      know_summary_keys(SummaryGroup::damage,
+                        {{"wear_volume_m3", "Volume that the rail has lost by 'Damage/Wear law', in all "
+                                            "passages; in each the wheels together lose as much"}});
+  } // namespace
+
+
   SurfaceDamageRecorder::SurfaceDamageRecorder(Model &model)
     : model(model)
     , damage(model.contact, rail_body, surface_damage_parameters(model.scene))
@@ -28,7 +38,8 @@ namespace tread
         const Vector3                   axle   = wheel.hub.start();
         const std::vector<SurfacePlace> places = damage.places(
           wheel.body, [&](const Vector3 &p) { return std::atan2(p[0] - axle[0], axle[2] - p[2]); });
-        report.folder.write_table(RunFolder::table_of_wheel("wheel_surface_damage", wheel.number), surface_damage_columns(true), places);
+        report.folder.write_table(RunFolder::table_of_wheel("wheel_surface_damage", wheel.number),
+                                  surface_damage_columns(true), places);
         hottest = std::max(hottest, max_temperature(places));
       }
     report.summary.set("max_flash_temperature_K", hottest);
