@@ -22,7 +22,8 @@ SHARES = ["rail_share", "sleeper_share", "rim_share", "web_share", "hub_share", 
 
 with tempfile.TemporaryDirectory() as folder:
     def modes(output, ranks=1, *more):
-        return execute(arguments_of(SCENE, COARSE, output, "modes") + ["--up-to", "1500", *more], ranks=ranks, program=program)
+        arguments = arguments_of(SCENE, COARSE, output, "modes") + ["--up-to", "1500", *more]
+        return execute(arguments, ranks, program) if ranks > 1 else execute_often(arguments, program)
 
     def words_of(path):
         with open(os.path.join(path, "modes.csv"), encoding="utf-8") as stream:

@@ -127,14 +127,14 @@ with tempfile.TemporaryDirectory() as folder:
         check.that(f"{name}: no summary", not os.path.exists(os.path.join(path(name), "summary.json")))
         if name == "killed":
             for what, other, more in (("other contacts", split, []), ("another scene", usual, ["-s", "Profile wear/Largest change=0.2"])):
-                said = execute([*arguments_of(SCENE, settings, path(name), "wear", other), "--resume", *more], program=program)
+                said = execute_often([*arguments_of(SCENE, settings, path(name), "wear", other), "--resume", *more], program)
                 check.that(f"--resume with {what}: one line", said.returncode == 1 and said.stderr.count("\n") == 1 and "of another scene, other contacts" in said.stderr)
         run(program, SCENE, path(name), settings, more=["--resume"], command="wear", table=usual)
         check.that(f"{name} and resumed: the same bytes", all(open(os.path.join(path(name), table), "rb").read() == open(os.path.join(path("wear"), table), "rb").read() for table in tables))
     with open(os.path.join(path("killed"), "wear.checkpoint"), "r+b") as stream:
         stream.seek(5000)
         stream.write(b"\0\1\2\3")
-    said = execute([*arguments_of(SCENE, settings, path("killed"), "wear", usual), "--resume"], program=program)
+    said = execute_often([*arguments_of(SCENE, settings, path("killed"), "wear", usual), "--resume"], program)
     check.that("a damaged checkpoint: one line", said.returncode == 1 and said.stderr.count("\n") == 1 and "damaged" in said.stderr)
     run(program, SCENE, path("killed"), quick, more=["--overwrite"], command="wear", table=usual)
     check.that("a new run leaves nothing of the old one", not os.path.exists(os.path.join(path("killed"), "worn_2.prm")))

@@ -495,9 +495,9 @@ with tempfile.TemporaryDirectory() as folder:
 
     elif what == "plastic":
         # Two bodies that flow with next to no hardening: cells under contact are crushed.
-        crushed = execute(arguments_of(SCENE, SHORT + ["Mesh/Fine half width (mm)=14"] + [
+        crushed = execute_often(arguments_of(SCENE, SHORT + ["Mesh/Fine half width (mm)=14"] + [
             f"{body}/{setting}" for body in ("Rail", "Wheel") for setting in ("Yield stress (MPa)=300", "Tangent modulus (GPa)=0.1")], path("crushed")),
-            program=program)
+            program)
         said = [line for line in crushed.stderr.splitlines() if line.startswith("tread:")]
         if not check.that("what cannot carry the load is told in a line", crushed.returncode == 2 and len(said) == 1
                           and ("cannot carry the load" in said[0] or "leaves what is meshed" in said[0])):
@@ -568,7 +568,7 @@ with tempfile.TemporaryDirectory() as folder:
                    "Yield stress (MPa)", "Tangent modulus (GPa)", "Finest cell (mm)", "Defect/Length (mm)",
                    "Stiffness damping (time steps)", "Courant number", "Lateral creepage", "Spin (1 per m)")
         start = {"Mesh/Finest cell (mm)": "1.3", "Mesh/Fine half width (mm)": "0", "Mesh/Fine layers": "2",
-                 "Motion/Rolled distance (mm)": "4", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false",
+                 "Motion/Rolled distance (mm)": "3", "Motion/Hold distance (mm)": "1", "Output/Write volume": "false",
                  "Motion/Passages": "1", "Ratcheting/Jumps": "false", "Ratcheting/Uniform rail": "false"}
         steps = lambda text: int(re.search(r"^steps +(\d+)", text, re.MULTILINE)[1])
         shipped = [os.path.join(where, name) for where, _, names in os.walk(os.path.join(ROOT, "prm")) for name in names
@@ -584,7 +584,7 @@ with tempfile.TemporaryDirectory() as folder:
             if new_mesh:
                 # Of large wheels cells of a size will do that other scenes have.
                 cell = float(settings["Mesh/Finest cell (mm)"])
-                size = max(0.63, cell) if float(settings["Wheel/Radius (mm)"]) > 100. else cell
+                size = max(1.3, cell) if float(settings["Wheel/Radius (mm)"]) > 100. else cell
                 dry = execute_often([scene, "--dry-run", "-s", f"Mesh/Finest cell (mm)={size}"], program)
                 check.that(f"{name}: says what it costs", dry.returncode == 0 and "steps" in dry.stdout)
                 words = [line for line in dry.stdout.splitlines() if "WARNING" in line]
@@ -600,10 +600,12 @@ with tempfile.TemporaryDirectory() as folder:
                 check.that(f"{name}: cut short it costs less", steps(cut.stdout) < 0.5 * steps(dry.stdout))
             if float(settings["Wheel/Radius (mm)"]) < 100.:
                 continue  # twin_disc.py rolls it, on cells of its own size
-            if not on_track and is_first({**settings, **start}, ("Title",)):
-                short = run(program, name, path("start"), start, more=["--overwrite"])
+            # With cells of one size, scenes of one physics differ in the density that each has with its own cells: one stands for all, with added density.
+            if not on_track and is_first({**settings, **start}, ("Title", "Density scale")):
+                quick = {"Scene/Density scale": "9"} if settings["Defect/Shape"] == "none" and float(settings["Scene/Density scale"]) < 9. else {}
+                short = run(program, name, path("start"), {**start, **quick}, more=["--overwrite"])
                 check.that(f"{name}: starts and ends", short["completed"])
-                # What rattles at the start is much beside the friction of 4 mm, and all there is without friction.
+                # What rattles at the start is much beside the friction of 3 mm, and all there is without friction.
                 if short["frictional_work_J"] > 0.1:
                     check.energy(f"{name}: ", short, 0.1)
                 else:

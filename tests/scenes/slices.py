@@ -13,7 +13,8 @@ import numpy as np
 from tread.crossing_force import SLICES
 from tread.files import input_of, read_table
 from tread.positions import rows_of, solve
-from tread.runs import ROOT, arguments_of, execute, must_end_well
+from tread.runs import ROOT, arguments_of, must_end_well
+from loaded_once import execute_often
 from tread_runner import Check, run, run_stopped, table
 
 program = sys.argv[1]
@@ -26,9 +27,14 @@ with tempfile.TemporaryDirectory() as folder:
 
     # The same profile at every x: its points once in 60 mm.
     short = ["Mesh/Finest cell (mm)=1", "Wheelset/Lateral shift (mm)=0", "Motion/Rolled distance (mm)=3", "Output/Write volume=false",
+<<<<<<< HEAD
              "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50",
              "Peak stress/Region=range", "Peak stress/From (mm)=-2.5", "Peak stress/To (mm)=-0.5", "Peak stress/Depth (mm)=5"]
     must_end_well(execute([*arguments_of(CURVE, short, path("points"), "contact-points"), "--shift-to", "1"], program=program))
+=======
+             "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50"]
+    must_end_well(execute_often([*arguments_of(CURVE, short, path("points"), "contact-points"), "--shift-to", "1"], program))
+>>>>>>> helper-c
     points = table(path("points"), "rail_profile.csv")
     with open(path("same.csv"), "w", encoding="utf-8") as file:
         file.write("x_mm,y_mm,z_mm\n")
@@ -85,14 +91,14 @@ with tempfile.TemporaryDirectory() as folder:
     check.absolute("height of the wheelset, mm", 1e3 * row["wheelset_height_m"], float(at_load["height_mm"]), 4e-3)
 
     # On the way to the nose: forces by piece, height.
-    rolled = ["Rail/Slices place (mm)=214", "Motion/Rolled distance (mm)=16", "Mesh/Finest cell (mm)=0.8", "Output/Write volume=false"]
+    rolled = ["Rail/Slices place (mm)=210", "Motion/Rolled distance (mm)=9", "Mesh/Finest cell (mm)=0.9", "Output/Write volume=false"]
     way = run(program, PASSAGE, path("way"), rolled)
     history = table(path("way"), "history.csv")
     inner, all_of_it = history["inner_normal_force_N"], history["normal_force_N"]
     check.that("the wheel begins on the wing", inner[0] == 0.)
     check.that("and comes to the nose", 0.2 * all_of_it[-1] < inner[-1] < all_of_it[-1])
     check.absolute("height of the wheelset at the end, mm", 1e3 * history["wheelset_height_m"][-1], 1e3 * way["wheelset_height_m"], 0.01)
-    check.energy("over the nose: ", way, 0.01)
+    check.energy("over the nose: ", way, 3e-3)
 
     # On sleepers it gives way and turns as the load passes, and nothing is lost.
     beam = [*rolled, "Track/Foundation=beam", "Track/Support 0 (mm)=300"]
@@ -114,8 +120,8 @@ with tempfile.TemporaryDirectory() as folder:
     check.relative("a wing that sinks: vertical force, N", steady["normal_force_N"], 60e3, 0.01)
 
     # The way as a table, beside the answers at its places, and the height at which nothing carries yet.
-    must_end_well(execute([*arguments_of(PASSAGE, ["Rail/Slices place (mm)=239", "Wheelset/Lateral shift (mm)=0.97", "Motion/Start (mm)=-2", "Motion/Rolled distance (mm)=4"],
-                                         path("points-along"), "contact-points")], program=program))
+    must_end_well(execute_often([*arguments_of(PASSAGE, ["Rail/Slices place (mm)=239", "Wheelset/Lateral shift (mm)=0.97", "Motion/Start (mm)=-2", "Motion/Rolled distance (mm)=4"],
+                                         path("points-along"), "contact-points")], program))
     along = read_table(os.path.join(path("points-along"), "contact_way.csv"), text=("part",))
     places = sorted(set(along["along_mm"]))
     check.that("five places", np.allclose(places, [237, 238, 239, 240, 241]) and np.allclose(along["along_mm"] - along["axle_x_mm"], 239))

@@ -8,7 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from tread.runs import arguments_of, command, environment
+from tread.runs import arguments_of, command, environment, execute
+from loaded_once import execute_often
 from tread_runner import Check, press_ctrl_c, rows_of, run
 
 program = sys.argv[1]
@@ -122,7 +123,8 @@ with tempfile.TemporaryDirectory() as folder:
     largest = max(max(row[f"support_{i}_pad_N"] for row in rows) for i in SUPPORTS)
 
     def sleeper(*more, ranks=1):
-        return subprocess.run(command(["sleeper-stress", path("1"), *more], ranks, program), env=environment(), capture_output=True, text=True)
+        arguments = ["sleeper-stress", path("1"), *more]
+        return execute(arguments, ranks, program) if ranks > 1 else execute_often(arguments, program)
 
     solved = sleeper("--cell-size", "50")
     print(solved.stdout, solved.stderr)
@@ -148,6 +150,6 @@ with tempfile.TemporaryDirectory() as folder:
     for words, answer in ((["--support", "99"], "--support"), (["--cell-size", "-1"], "--cell-size"), (["--bottom", "sand"], "--bottom")):
         refused = sleeper(*words)
         check.that(" ".join(words) + ": " + refused.stderr.strip(), refused.returncode == 1 and answer in refused.stderr)
-    refused = subprocess.run(command(["sleeper-stress", folder], program=program), env=environment(), capture_output=True, text=True)
+    refused = execute_often(["sleeper-stress", folder], program)
     check.that("a folder without seats: " + refused.stderr.strip(), refused.returncode == 1 and "rail_seats.csv" in refused.stderr)
 check.exit()

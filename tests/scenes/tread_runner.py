@@ -12,7 +12,7 @@ import time
 
 import tread
 from tread.files import read_summary, read_table
-from tread.runs import ROOT, arguments_of, command, environment, execute, must_end_well
+from tread.runs import ROOT, arguments_of, command, environment, must_end_well
 
 from loaded_once import execute_often
 
@@ -20,7 +20,7 @@ from loaded_once import execute_often
 @functools.lru_cache(maxsize=None)
 def explained_keys(program):
     """The keys of summary.json whose meanings the program knows."""
-    tables = {table["file"]: table["columns"] for table in json.loads(must_end_well(execute(["columns"], program=program)).stdout)}
+    tables = {table["file"]: table["columns"] for table in json.loads(must_end_well(execute_often(["columns"], program)).stdout)}
     return frozenset(key["name"] for key in tables["summary.json"] if key["meaning"])
 
 

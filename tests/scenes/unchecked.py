@@ -14,7 +14,8 @@ import sys
 import tempfile
 import time
 
-from tread.runs import ROOT, execute, must_end_well
+from tread.runs import ROOT, must_end_well
+from loaded_once import execute_often
 from value_checks import engine
 from value_checks.known import reason
 from value_checks.runs import all_runs
@@ -23,7 +24,7 @@ from value_checks import curve, half_space, library, modes, plastic, straight, t
 
 def names_of(program: str) -> set[tuple[str, str]]:
     """All keys and columns that the program explains."""
-    tables = json.loads(must_end_well(execute(["columns"], program=program)).stdout)
+    tables = json.loads(must_end_well(execute_often(["columns"], program)).stdout)
     fields = library.fields_of_the_header(os.path.join(ROOT, "include/tread/half_space.h"))
     return {(table["file"], column["name"]) for table in tables for column in table["columns"]} | {
         (struct, field) for struct, of_struct in fields.items() for field in of_struct}

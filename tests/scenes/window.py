@@ -10,13 +10,14 @@ import tempfile
 import numpy as np
 
 from tread.files import read_summary
-from tread.runs import arguments_of, execute, must_end_well
+from tread.runs import arguments_of, must_end_well
+from loaded_once import execute_often
 from tread_runner import Check, rows_of, run, run_stopped, table
 
 program = sys.argv[1]
 check = Check()
 SCENE = "smooth-rolling.prm"
-COARSE = ["Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9", "Motion/Rolled distance (mm)=40", "Scene/Density scale=1",
+COARSE = ["Mesh/Finest cell (mm)=1.8", "Mesh/Fine half width (mm)=9", "Motion/Rolled distance (mm)=40", "Scene/Density scale=1",
           "Time stepping/Levels=1"]
 WINDOW = COARSE + ["Mesh/Window=true", "Mesh/Window length (mm)=10"]
 
@@ -41,7 +42,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("four windows", moving["windows"] == 4 and "windows" not in whole)
     check.that("fewer cells", moving["cells"] < 0.9 * whole["cells"])
     for column in ("normal_force_N", "longitudinal_force_N"):
-        check.below(f"{column}: largest difference from all cells fine", np.abs(differences(of_moving, of_whole, column)).max(), 1e-3)
+        check.below(f"{column}: largest difference from all cells fine", np.abs(differences(of_moving, of_whole, column)).max(), 5e-4)
     for key, allowed in (("max_pressure_Pa", 1e-3), ("patch_area_m2", 1e-3), ("creepage", 1e-4), ("max_shear_Pa", 2e-3),
                          ("adhesion_share", 2e-3), ("frictional_work_J", 1e-3)):
         check.relative(f"{key} beside all cells fine", moving[key], whole[key], allowed)
@@ -51,7 +52,7 @@ with tempfile.TemporaryDirectory() as folder:
     places = [1e3 * of_moving["position_m"][k + 1] + 40. for k in np.flatnonzero(np.diff(loss))]
     check.that("the loss changes at 10, 20 and 30 mm", len(places) == 3 and all(0. <= at - due <= 0.6 for at, due in zip(places, (10., 20., 30.))))
     check.absolute("the summary has the last row's loss, J", moving["window_loss_J"], loss[-1], 1e-9)
-    check.below("window loss over what was dissipated", moving["window_loss_J"] / moving["dissipated_work_J"], 2e-3)
+    check.below("window loss over what was dissipated", moving["window_loss_J"] / moving["dissipated_work_J"], 1.3e-3)
     check.that("but some was lost", abs(loss[-1]) > 1e-6)
     check.energy("", moving, 1e-3)
     stored = np.array([sum(row[name] for name in ("kinetic_energy_J", "internal_energy_J", "hourglass_energy_J", "frictional_work_J",
@@ -61,10 +62,10 @@ with tempfile.TemporaryDirectory() as folder:
 
     # With added density: the mass that chords lack is not taken for a loss.
     scaled = run(program, SCENE, path("scaled"), WINDOW + ["Scene/Density scale=25"])
-    # 0.008 was found, and 0.87 where the kinetic energy of that mass is booked without its centrifugal potential.
-    check.below("density scale 25: window loss over what was dissipated", scaled["window_loss_J"] / scaled["dissipated_work_J"], 0.02)
+    # 0.003 was found, and with cells of 1.3 mm 0.008, and 0.87 where the kinetic energy of that mass is booked without its centrifugal potential.
+    check.below("density scale 25: window loss over what was dissipated", scaled["window_loss_J"] / scaled["dissipated_work_J"], 0.007)
     # 0.048 was found with four times as much mass.
-    heavy = run(program, SCENE, path("heavy"), WINDOW + ["Scene/Density scale=100"])
+    heavy = run(program, SCENE, path("heavy"), WINDOW + ["Mesh/Finest cell (mm)=1.3", "Scene/Density scale=100"])
     warned = [sum("changes of the window" in line for line in summary["warnings"]) for summary in (moving, scaled, heavy)]
     check.that("a loss above 2 % is told of", warned == [0, 0, 1] and abs(heavy["window_loss_J"] / heavy["dissipated_work_J"]) > 0.02)
 
@@ -77,7 +78,7 @@ with tempfile.TemporaryDirectory() as folder:
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
         check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
     check.that("stopped and resumed: the same strip", rows_of(path("stopped"), "strip.csv") == rows_of(path("moving"), "strip.csv"))
-    one, two = (run(program, SCENE, path(f"on-{ranks}"), [*WINDOW, "Motion/Rolled distance (mm)=12", "Mesh/Window length (mm)=6"], ranks) for ranks in (1, 2))
+    one, two = (run(program, SCENE, path(f"on-{ranks}"), [*WINDOW, "Motion/Rolled distance (mm)=12", "Mesh/Window length (mm)=7.5"], ranks) for ranks in (1, 2))
     for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
         check.relative(f"two ranks, with friction: {key}", two[key], one[key], 1e-6)
 
@@ -115,7 +116,7 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-9)
     for key in ("normal_force_N", "max_pressure_Pa", "window_loss_J", "damping_work_J"):
         check.relative(f"two ranks: {key}", slow_again[key], slow[key], 1e-6)
-    dry = must_end_well(execute([*arguments_of("tutorial/track.prm", TRACK), "--dry-run"], program=program)).stdout
+    dry = must_end_well(execute_often([*arguments_of("tutorial/track.prm", TRACK), "--dry-run"], program)).stdout
     added = [line.split()[1:3] for line in dry.splitlines() if line.startswith("  0.456 ")][0]
     for body, kg in zip(("rail", "wheels"), added):  # in the first window, of which the summary has the largest
         check.relative(f"--dry-run says what such a step adds, {body}, kg", float(kg), slow[f"added_mass_{body}_kg"], 0.15)
@@ -129,7 +130,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.refused("a step that adds too much", program, "tutorial/track.prm", path("refused"), TRACK + ["Time stepping/Least step (us)=3"], ["Least step", "1 kHz"])
     check.refused("a step with scaled density", program, SCENE, path("refused"), COARSE + ["Scene/Density scale=4", "Time stepping/Least step (us)=0.5"], ["Least step", "Density scale"])
 
-    dry = must_end_well(execute([*arguments_of(SCENE, WINDOW), "--dry-run"], program=program)).stdout
+    dry = must_end_well(execute_often([*arguments_of(SCENE, WINDOW), "--dry-run"], program)).stdout
     check.that("--dry-run says of which place it speaks", "4 places; cells, memory and time step are those of the first one" in dry)
 
     # Where the mesh must stay.

@@ -5,10 +5,12 @@ lies beside the middle, creepages act in both directions, both wheels of a wheel
 from __future__ import annotations
 
 import os
+import subprocess
 import time
 
 from tread.files import read_parameters
 from tread.runs import ROOT, arguments_of, execute, must_end_well
+from loaded_once import execute_often
 
 from .engine import Runs, screen_of
 
@@ -30,14 +32,17 @@ class Maker:
     def __init__(self, program: str, folder: str):
         self.program, self.folder = program, folder
         self.runs = Runs()
-        self.runs.version = execute(["--version"], program=program).stdout.strip()
+        self.runs.version = execute_often(["--version"], program).stdout.strip()
 
     def path(self, name: str) -> str:
         return os.path.join(self.folder, name)
 
+    def ended(self, arguments: list[str], ranks: int) -> subprocess.CompletedProcess:
+        return must_end_well(execute(arguments, ranks, self.program) if ranks > 1 else execute_often(arguments, self.program))
+
     def run(self, name: str, scene: str, settings: dict, ranks: int = 1, more: tuple[str, ...] = (), command: str = "run") -> None:
         start = time.monotonic()
-        ended = must_end_well(execute([*arguments_of(os.path.join(ROOT, "prm", scene), settings, self.path(name), command), *more], ranks, self.program))
+        ended = self.ended([*arguments_of(os.path.join(ROOT, "prm", scene), settings, self.path(name), command), *more], ranks)
         self.keep(name, ended.stdout, time.monotonic() - start)
 
     def keep(self, name: str, screen: str, seconds: float) -> None:
@@ -51,7 +56,7 @@ class Maker:
 
     def tool(self, name: str, arguments: list[str], ranks: int = 1) -> None:
         start = time.monotonic()
-        ended = must_end_well(execute([*arguments, "--output", self.path(name)], ranks, self.program))
+        ended = self.ended([*arguments, "--output", self.path(name)], ranks)
         self.keep(name, ended.stdout, time.monotonic() - start)
 
 
