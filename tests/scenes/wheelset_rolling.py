@@ -9,9 +9,6 @@ import subprocess
 import sys
 import tempfile
 
-from tread.files import read_summary
-from tread.files import read_table
-from tread.manchester import positions, roll
 from tread.files import read_summary, read_table
 from tread.manchester import positions, roll
 from tread.patches import Patch
