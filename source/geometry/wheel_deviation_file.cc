@@ -97,8 +97,12 @@ namespace tread
     {
       const CsvTable table(
         file,
-        [](const std::string &name) {
-          return unit_of_angle(name) > 0. || name == "y_mm" || name == "dz_mm" || place_in(name);
+        [&file](const std::string &name) {
+          require(unit_of_angle(name) > 0. || name == "y_mm" || name == "dz_mm" || place_in(name),
+                  "'" + file + "': the column '" + name +
+                    "' is none of a scan, such as angle_deg, y_mm, dz_mm or y+5: "
+                    "give it such a name, or remove it");
+          return true;
         },
         "cannot read '" + file + "'");
       std::vector<std::string> angles, places;

@@ -4,6 +4,7 @@
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/placed_wheel.h>
 #include <tread/scene/scene.h>
 #include <tread/solid/element.h>
 
@@ -281,13 +282,23 @@ namespace tread
     if (peak_stress.place == PeakPlace::range)
       require(peak_stress.from < peak_stress.to, "'Peak stress/From (mm)' " + text_in_mm(peak_stress.from) +
                                                    " must be below 'To (mm)', " + text_in_mm(peak_stress.to));
-    // A wheelset that is turned touches ahead of its axle or behind it.
-    const double ahead = is_positioned() ? placed_wheel().main_patch().region.reference[0] : 0.,
-                 first = path_begin() + ahead, last = path_end() + ahead + 0.5 * mesh.finest_cell;
-    require(region.begin >= first && region.end <= last,
+    // A wheelset in a position touches ahead of its axle or behind it, on slices on one piece after the
+    // other.
+    const double half_cell = 0.5 * mesh.finest_cell;
+    const auto   on_path =
+      is_positioned()
+          ? placed_wheel().paths()
+          : std::vector<PlacedWheel::Path>{{nullptr, "", path_begin(), path_end() + half_cell, 0., 0.}};
+    std::string where;
+    for (const PlacedWheel::Path &path : on_path)
+      where += (where.empty() ? "" : ", or ") + (path.name.empty() ? "" : path.name + " ") + "from " +
+               text_in_mm(path.begin) + " to " + text_in_mm(path.end) + " mm";
+    require(std::any_of(on_path.begin(), on_path.end(),
+                        [&](const PlacedWheel::Path &path) {
+                          return region.begin >= path.begin && region.end <= path.end;
+                        }),
             "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " +
-              text_in_mm(region.end) + " mm, must lie on the path of the first wheel, which is from " +
-              text_in_mm(first) + " to " + text_in_mm(last) + " mm");
+              text_in_mm(region.end) + " mm, must lie on the path of the first wheel, which is " + where);
     const Range fine = cubes();
     require(
       is_finest(region.begin, region.end),

@@ -167,10 +167,6 @@ namespace tread
       return [&scene](const dealii::Point<3> &p) {
         return scene.depth_in_rail(p);
       };
-    if (scene.is_positioned())
-      return [&scene, begin = scene.path_begin()](const dealii::Point<3> &p) {
-        return scene.placed_wheel().place_in_wheel(p, begin).below;
-      };
     return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
       const double ahead = p[0] - begin, down = height - p[2];
       return scene.surfaces().wheel_radius(std::atan2(ahead, down), p[1]) - std::hypot(ahead, down);
@@ -236,18 +232,24 @@ namespace tread
     const double begin = scene.path_begin();
     if (scene.is_positioned())
       {
-        const PlacedWheel &wheel = scene.placed_wheel();
-        region.reach += wheel.farthest_ahead();
-        region.beside = [&wheel](const dealii::Point<3> &p) {
-          return wheel.beside_path(p);
+        const PlacedWheel      &wheel = scene.placed_wheel();
+        const PlacedWheel::Path path  = wheel.paths_over(range.begin, range.end).front();
+        region.reach += path.ahead;
+        if (section.half_width == 0.)
+          region.half_width = path.half_width;
+        region.beside = [&wheel, path](const dealii::Point<3> &p) {
+          return wheel.beside(path, p);
         };
         if (body == rail_body)
           return region;
-        region.along = [&wheel, begin](const dealii::Point<3> &p) {
-          return wheel.place_in_wheel(p, begin).along;
+        region.along = [&wheel, path, begin](const dealii::Point<3> &p) {
+          return wheel.place_in_wheel(p, path, begin).along;
         };
-        region.beside = [&wheel, begin](const dealii::Point<3> &p) {
-          return wheel.place_in_wheel(p, begin).beside;
+        region.beside = [&wheel, path, begin](const dealii::Point<3> &p) {
+          return wheel.place_in_wheel(p, path, begin).beside;
+        };
+        region.depth_of = [&wheel, path, begin](const dealii::Point<3> &p) {
+          return wheel.place_in_wheel(p, path, begin).below;
         };
       }
     else if (body != rail_body)

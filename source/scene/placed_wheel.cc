@@ -88,6 +88,8 @@ namespace tread
     : surfaces(scene.wheel_on_rail())
     , sides(solve(scene, surfaces, position, rolling))
     , load(scene.static_load())
+    , way_begin(scene.path_begin())
+    , way_end(scene.path_end())
     , rise_of_rail(0.)
     , slices_place(scene.rail.slices_place)
     , contact(together(sides))
@@ -301,34 +303,9 @@ namespace tread
   }
 
 
-  double PlacedWheel::farthest_ahead() const
-  {
-    double     farthest = 0.;
-    const auto look     = [&](const WheelPatch &patch) {
-      farthest = std::max(farthest, std::abs(patch.region.reference[0]));
-    };
-    for (const WheelPatch &patch : patches())
-      look(patch);
-    for (const TouchedPiece &piece : slices.pieces)
-      for (const TouchedPiece::Touch &touch : piece.touches)
-        look(touch.patch);
-    return farthest;
-  }
-
-
   PlacedWheel::Place PlacedWheel::place_in_rail(const dealii::Point<3> &p) const
   {
     return place_in_rail(p, patches()[nearest_patch(Vector3{p[0], p[1], p[2], 0.})]);
-  }
-
-
-  double PlacedWheel::beside_path(const dealii::Point<3> &p) const
-  {
-    if (!slices.pieces.empty())
-      return nearest_piece(p).distance;
-    const Vector3     place{p[0], p[1], p[2], 0.};
-    const WheelPatch &patch = patches()[nearest_patch(place)];
-    return dot(place - origin(patch), along(patch));
   }
 
 
@@ -376,30 +353,19 @@ namespace tread
   } // namespace
 
 
-  PlacedWheel::Beside PlacedWheel::nearest_piece(const dealii::Point<3> &p) const
-  {
-    Beside nearest{nullptr, 1e300};
-    for (const TouchedPiece &piece : slices.pieces)
-      {
-        const double beside =
-          (p[1] + surfaces.rail_origin_y() - piece.y(p[0])) / std::cos(piece.inclination());
-        if (std::abs(beside) < std::abs(nearest.distance))
-          nearest = {&piece, beside};
-      }
-    return nearest;
-  }
-
-
   PlacedWheel::Place PlacedWheel::place_in_slices(const dealii::Point<3> &p) const
   {
-    const double                                      y        = p[1] + surfaces.rail_origin_y();
-    const Beside                                      near     = nearest_piece(p);
+    const double        y     = p[1] + surfaces.rail_origin_y();
+    const TouchedPiece &piece = *std::min_element(slices.pieces.begin(), slices.pieces.end(),
+                                                  [&](const TouchedPiece &a, const TouchedPiece &b) {
+                                                    return std::abs(beside(a, p)) < std::abs(beside(b, p));
+                                                  });
     std::shared_ptr<const std::vector<ProfileCurve>> &sections = sections_at[p[0]];
     if (!sections)
       sections = surfaces.rail_sections(slices_place + p[0]);
     const auto   top   = highest_over(*sections, y);
     const double below = (top ? top->z : nearest_end(*sections, y)) - p[2];
-    return {p[0], near.distance, std::cos(near.piece->inclination()) * below};
+    return {p[0], beside(piece, p), std::cos(piece.inclination()) * below};
   }
 
 
@@ -426,28 +392,84 @@ namespace tread
   }
 
 
-  PlacedWheel::Place PlacedWheel::place_in_wheel(const dealii::Point<3> &p, const double start_x) const
+  std::vector<PlacedWheel::Path> PlacedWheel::paths() const
   {
-    Place      nearest{0., 1e300, 0.};
-    const auto look = [&](const WheelPatch &patch) {
-      Place place = place_in_wheel(p, patch, start_x);
-      place.along += start_x + patch.region.reference[0];
-      if (std::abs(place.beside) < std::abs(nearest.beside))
-        nearest = place;
+    std::vector<Path> all;
+    const auto        half_width = [](const WheelPatch &patch) {
+      return 0.5 * (patch.solution.y_end - patch.solution.y_begin);
     };
     if (slices.pieces.empty())
-      for (const WheelPatch &patch : patches())
-        look(patch);
+      {
+        const double ahead = main_patch().region.reference[0];
+        return {{nullptr, "", way_begin + ahead, way_end + ahead, half_width(main_patch()), std::abs(ahead)}};
+      }
     for (const TouchedPiece &piece : slices.pieces)
       {
-        // Where the axle is when this part of the tread has come down to the rail.
-        const double axle = start_x + place_in_wheel(p, piece.touches.front().patch, start_x).along;
-        look(std::min_element(piece.touches.begin(), piece.touches.end(),
-                              [&](const TouchedPiece::Touch &a, const TouchedPiece::Touch &b) {
-                                return std::abs(a.axle - axle) < std::abs(b.axle - axle);
-                              })
-               ->patch);
+        Path path{&piece, piece.body, 1e300, -1e300, 0., 0.};
+        for (const TouchedPiece::Touch &touch : piece.touches)
+          {
+            path.begin      = std::min(path.begin, touch.x());
+            path.end        = std::max(path.end, touch.x());
+            path.half_width = std::max(path.half_width, half_width(touch.patch));
+            path.ahead      = std::max(path.ahead, std::abs(touch.patch.region.reference[0]));
+          }
+        all.push_back(path);
       }
-    return nearest;
+    return all;
+  }
+
+
+  std::vector<PlacedWheel::Path> PlacedWheel::paths_over(const double begin, const double end) const
+  {
+    std::vector<std::pair<double, Path>> by_force;
+    for (const Path &path : paths())
+      if (begin >= path.begin && end <= path.end)
+        {
+          double force = path.piece ? 0. : main_patch().solution.normal_force;
+          if (path.piece)
+            for (const TouchedPiece::Touch &touch : path.piece->touches)
+              if (touch.x() >= begin - path.piece->apart && touch.x() <= end + path.piece->apart)
+                force = std::max(force, touch.patch.solution.normal_force);
+          by_force.emplace_back(force, path);
+        }
+    std::stable_sort(by_force.begin(), by_force.end(),
+                     [](const auto &a, const auto &b) { return a.first > b.first; });
+    std::vector<Path> over;
+    for (const auto &[force, path] : by_force)
+      over.push_back(path);
+    return over;
+  }
+
+
+  double PlacedWheel::beside(const TouchedPiece &piece, const dealii::Point<3> &p) const
+  {
+    return (p[1] + surfaces.rail_origin_y() - piece.y(p[0])) / std::cos(piece.inclination());
+  }
+
+
+  double PlacedWheel::beside(const Path &path, const dealii::Point<3> &p) const
+  {
+    return path.piece ? beside(*path.piece, p)
+                      : dot(Vector3{p[0], p[1], p[2], 0.} - origin(main_patch()), along(main_patch()));
+  }
+
+
+  PlacedWheel::Place PlacedWheel::place_in_wheel(const dealii::Point<3> &p,
+                                                 const Path             &path,
+                                                 const double            start_x) const
+  {
+    const WheelPatch *patch = &main_patch();
+    if (path.piece)
+      {
+        // Where the axle is when this part of the tread has come down to the rail.
+        const auto  &touches = path.piece->touches;
+        const double axle    = start_x + place_in_wheel(p, touches.front().patch, start_x).along;
+        patch = &std::min_element(touches.begin(), touches.end(), [&](const auto &a, const auto &b) {
+                   return std::abs(a.axle - axle) < std::abs(b.axle - axle);
+                 })->patch;
+      }
+    Place place = place_in_wheel(p, *patch, start_x);
+    place.along += start_x + patch->region.reference[0];
+    return place;
   }
 } // namespace tread

@@ -539,15 +539,10 @@ namespace tread
         return contact.factor_across(place[1],
                                      std::atan2(top(place[1] + step) - top(place[1] - step), 2. * step));
       }
-    const PlacedWheel       &wheel = placed_wheel();
-    const WheelPatch        &patch = wheel.patches()[wheel.nearest_patch(place)];
-    const PlacedWheel::Place in_plane =
-      wheel.place_in_rail(dealii::Point<3>(place[0], place[1], place[2]), patch);
-    const double c = std::cos(patch.region.angle), s = std::sin(patch.region.angle);
-    const auto  &rail = wheel.surfaces.rail();
-    const double y    = std::clamp(patch.region.reference[1] + in_plane.beside * c + in_plane.below * s,
-                                   rail.begin(), rail.end());
-    return contact.factor_across(y - wheel.surfaces.rail_origin_y(), std::atan(rail.slope(y)));
+    const WheelOnRail &in_track = placed_wheel().surfaces;
+    const auto        &rail     = in_track.rail();
+    const double       y        = std::clamp(place[1] + in_track.rail_origin_y(), rail.begin(), rail.end());
+    return contact.factor_across(y - in_track.rail_origin_y(), std::atan(rail.slope(y)));
   }
 
 
@@ -574,7 +569,9 @@ namespace tread
           {
             values.clear();
           }
-        require(values.size() == 3 && values[2] > 0.,
+        require(values.size() == 3 && values[2] > 0. &&
+                  std::all_of(values.begin(), values.end(),
+                              [](const double value) { return std::isfinite(value); }),
                 "'Output/Cells' cannot be '" + text +
                   "'; allowed: x,y,depth in mm, depth above 0, entries separated by semicolons");
         const double     depth = 1e-3 * values[2];

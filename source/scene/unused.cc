@@ -264,10 +264,15 @@ namespace tread
       for (Group &group : groups_of_steel(body, *steel))
         groups.push_back(std::move(group));
 
+    // Without a defect they say where the region lies.
+    const auto places_region = [&](const std::string &path) {
+      return peak_stress.place == PeakPlace::trailing_edge &&
+             (path == "Defect/Length (mm)" || path == "Defect/Position (mm)" || path == "Defect/Width (mm)");
+    };
     std::vector<std::string> unused;
     for (const std::string &path : changed_parameters())
       for (const Group &group : groups)
-        if (!group.counts && concerns(group, path))
+        if (!group.counts && concerns(group, path) && !places_region(path))
           {
             const bool elsewhere = group.main.find('/') != std::string::npos;
             unused.push_back("'" + path + "' has no effect: it needs '" +

@@ -13,29 +13,27 @@ namespace tread
 {
   namespace
   {
-    const bool keys_of_wheelset_are_known =
-      know_summary_keys(
-        SummaryGroup::position,
-        {{"lateral_shift_m",
-          "Of a wheelset in a position: its shift in the track, to its own side, at the end of the path"},
-         {"yaw_rad", "Of a wheelset in a position, at the end of the path, positive: the leading side turns "
-                     "to the own side"},
-         {"roll_rad",
-          "Of a wheelset in a position, at the end of the path, positive: the own side goes down"},
-         {"creepage_over_nominal_radius",
-          "Of a wheelset in a position: angular velocity times 'Wheel/Radius (mm)' over the speed, less 1, "
-          "as 'Motion/Creepage' counts it; 'creepage' of each patch counts from the radius that rolls there"},
-         {"angular_velocity_rad_per_s",
-          "Of a wheelset in a position, about its axle at the end of the path, counted from free rolling"},
-         {"wheelset_height_m", "Of a wheelset in a position: height of the middle of its axle over the tops "
-                               "of the rails, less the wheel's radius, at the end of the path"}}) &&
-      know_summary_keys(
-        SummaryGroup::references,
-        {{"patches", "Of a wheelset in a position: a list with an entry for each patch, in contact axes: x "
-                     "forward, s along the rail's surface to the field side, the normal upwards; forces, "
-                     "pressure, slip and extent are means while the wheel rolls over one cell around the end "
-                     "of the path, what follows from the undeformed bodies is the half-space's"},
-         {"half_space_patches", "The same patches as half-space theory has them, with the same keys"}});
+    const bool keys_of_wheelset_are_known = know_summary_keys(
+      SummaryGroup::position,
+      {{"lateral_shift_m",
+        "Of a wheelset in a position: its shift in the track, to its own side, at the end of the path"},
+       {"yaw_rad", "Of a wheelset in a position, at the end of the path, positive: the leading side turns "
+                   "to the own side"},
+       {"roll_rad", "Of a wheelset in a position, at the end of the path, positive: the own side goes down"},
+       {"creepage_over_nominal_radius",
+        "Of a wheelset in a position: angular velocity times 'Wheel/Radius (mm)' over the speed, less 1, "
+        "as 'Motion/Creepage' counts it; 'creepage' of each patch counts from the radius that rolls there"},
+       {"angular_velocity_rad_per_s",
+        "Of a wheelset in a position, about its axle at the end of the path, counted from free rolling"},
+       {"wheelset_height_m", "Of a wheelset in a position: height of the middle of its axle over the tops "
+                             "of the rails, less the wheel's radius, at the end of the path"}});
+    const bool keys_of_patch_lists_are_known = know_summary_keys(
+      SummaryGroup::references,
+      {{"patches", "Of a wheelset in a position: a list with an entry for each patch, in contact axes: x "
+                   "forward, s along the rail's surface to the field side, the normal upwards; forces, "
+                   "pressure, slip and extent are means while the wheel rolls over one cell around the end "
+                   "of the path, what follows from the undeformed bodies is the half-space's"},
+       {"half_space_patches", "The same patches as half-space theory has them, with the same keys"}});
 
     /// A figure of a patch: its key in summary.json with what it means, and its line on the screen where it
     /// has one.

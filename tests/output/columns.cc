@@ -380,12 +380,13 @@ namespace
   }
 
   /// Keys as files make them known that set them, in an order that is not that of the page.
-  const bool test_keys_are_known =
-    know_summary_keys(SummaryGroup::recorded, {{"cell_1_test_m", "Of a cell"}}) &&
-    know_summary_keys(SummaryGroup::cost,
-                      {{"test_c_rad_per_s", "First of its call"}, {"test_a_bytes", "Second of its call"}}) &&
-    know_summary_keys(SummaryGroup::cost, {{"test_b_per_s", "Before those, by its name"}}) &&
-    know_summary_keys(SummaryGroup::run, {{"wall_s_test", "Of the first group"}});
+  const bool cell_is_known   = know_summary_keys(SummaryGroup::recorded, {{"cell_1_test_m", "Of a cell"}}),
+             costs_are_known = know_summary_keys(
+               SummaryGroup::cost,
+               {{"test_c_rad_per_s", "First of its call"}, {"test_a_bytes", "Second of its call"}}),
+             cost_is_known =
+               know_summary_keys(SummaryGroup::cost, {{"test_b_per_s", "Before those, by its name"}}),
+             run_is_known = know_summary_keys(SummaryGroup::run, {{"wall_s_test", "Of the first group"}});
 
   /// What summary.json means: each key once, whatever number a name has, and units where they are not at the
   /// end.

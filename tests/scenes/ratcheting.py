@@ -15,9 +15,7 @@ program = sys.argv[1]
 check = Check()
 SCENE = "damage/ratcheting.prm"
 COARSE = ["Mesh/Finest cell (mm)=2.6", "Mesh/Fine half width (mm)=10", "Motion/Rolled distance (mm)=30", "Output/History interval (mm)=2"]
-# Of 24 passages nine are left out, by two jumps.
-N = 24
-SHORT = COARSE + [f"Motion/Passages={N}", "Ratcheting/Irregularity (%)=15", "Ratcheting/Change in a jump (%)=40", "Scene/Reproducible=true"]
+SHORT = COARSE + ["Motion/Passages=16", "Ratcheting/Irregularity (%)=15", "Ratcheting/Change in a jump (%)=40"]
 ROLLED = COARSE + ["Ratcheting/Jumps=false"]
 
 
@@ -73,19 +71,20 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("in steel that yields there is, from the first wheel on", np.all(first["residual_von_mises_MPa"] > 100.) and np.all(np.diff(first["settlement_um"]) > 0.) and first["settlement_um"][0] > 1.)
 
     # Passages that are rolled beside those that are left out.
-    rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={N}"])
-    jumped = run(program, SCENE, path("jumped"), SHORT)
+    n = 34  # with two jumps
+    rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={n}"])
+    jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
     all_of, some = columns(path("rolled")), columns(path("jumped"))
-    check.that("all are rolled without jumps", rolled["passages_rolled"] == N and list(all_of["passage"]) == list(range(1, N + 1)) and "jumps" not in rolled)
-    check.that("few with", jumped["passages_rolled"] < 0.65 * N and jumped["passages_rolled"] + jumped["passages_left_out"] == N)
+    check.that("all are rolled without jumps", rolled["passages_rolled"] == n and list(all_of["passage"]) == list(range(1, n + 1)) and "jumps" not in rolled)
+    check.that("fewer with", jumped["jumps"] == 2 and jumped["passages_left_out"] >= 12 and jumped["passages_rolled"] + jumped["passages_left_out"] == n)
     check.that("each row says how many were left out before it", np.all(np.diff(some["passage"], prepend=0) == some["skipped"] + 1) and some["skipped"].sum() == jumped["passages_left_out"]
-               and (some["skipped"] > 0).sum() == jumped["jumps"] and some["passage"][-1] == N)
+               and (some["skipped"] > 0).sum() == jumped["jumps"] and some["passage"][-1] == n)
     at = some["passage"].astype(int) - 1
-    for column, allowed in (("net_plastic_strain_percent", 0.011), ("equivalent_plastic_strain_percent", 0.011), ("shift_um", 0.012), ("settlement_um", 0.007)):
+    for column, allowed in (("net_plastic_strain_percent", 0.015), ("equivalent_plastic_strain_percent", 0.015), ("shift_um", 0.015), ("settlement_um", 0.003)):
         check.below(f"{column}: largest difference from all rolled, over the last", np.abs(some[column] - all_of[column][at]).max() / abs(all_of[column][-1]), allowed)
     off = abs(jumped["net_plastic_strain"] / rolled["net_plastic_strain"] - 1.)
-    check.that("the estimate of the error is no less than it, and no more than a tenth of the strain",
-               off <= jumped["net_plastic_strain_error_estimate"] / rolled["net_plastic_strain"] <= 0.1)
+    check.that("the estimate of the error is no less than a third of it, and no more than a tenth of the strain",
+               off / 3. <= jumped["net_plastic_strain_error_estimate"] / rolled["net_plastic_strain"] <= 0.1)
     growth = np.diff(all_of["net_plastic_strain_percent"], prepend=0.)
     check.that("the largest change of a passage is no less than that of the largest strain", np.all(all_of["net_plastic_strain_of_passage_percent"] >= growth - 1e-6))
     check.that("it ratchets: the surface moves against the wheel, the strain grows, the net one less", np.all(np.diff(all_of["shift_um"]) < 0) and np.all(growth > 0)
@@ -106,26 +105,27 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("change in a passage behind them, %", still["net_plastic_strain_of_passage_percent"][last:].max(), 1e-6)
 
     # To the same bytes: from the start on two ranks; stopped behind a jump, in a passage and between two, and on to the end on other ranks.
-    run_stopped(program, SCENE, path("stopped"), SHORT, 16 * 12)
-    run_stopped(program, SCENE, path("between"), SHORT, 12, "passages.csv")
+    bits = SHORT + ["Scene/Reproducible=true"]
+    one = run(program, SCENE, path("one"), bits)
+    run_stopped(program, SCENE, path("stopped"), bits, 16 * 10)
+    run_stopped(program, SCENE, path("between"), bits, 9, "passages.csv")
     resumed = {}
     for name, ranks in (("stopped", 2), ("between", 3)):
         part = columns(path(name))  # it may have ended between two passages, where there is no summary
-        check.that(f"{name} behind a jump", part["skipped"].sum() > 0 and len(part["passage"]) < jumped["passages_rolled"])
-        resumed[name] = run(program, SCENE, path(name), SHORT, more=["--resume"], ranks=ranks)
-
+        check.that(f"{name} behind a jump", part["skipped"].sum() > 0 and len(part["passage"]) < one["passages_rolled"])
+        resumed[name] = run(program, SCENE, path(name), bits, more=["--resume"], ranks=ranks)
     def bytes_of(name):
         with open(os.path.join(path(name), "passages.csv"), "rb") as stream:
             return stream.read()
 
     for ranks in (1, 2):
-        run(program, SCENE, path(f"first-{ranks}"), [*SHORT, "Motion/Passages=4"], ranks)
+        run(program, SCENE, path(f"first-{ranks}"), [*bits, "Motion/Passages=4"], ranks)
     check.that("four passages on two ranks: passages.csv to the last byte", bytes_of("first-1") == bytes_of("first-2"))
     for name, of in resumed.items():
-        check.that(f"{name}: the mesh does not depend on the ranks", of["cells"] == jumped["cells"])
-        check.that(f"{name}: passages.csv to the last byte", bytes_of(name) == bytes_of("jumped"))
+        check.that(f"{name}: the mesh does not depend on the ranks", of["cells"] == one["cells"])
+        check.that(f"{name}: passages.csv to the last byte", bytes_of(name) == bytes_of("one"))
         for key in ("net_plastic_strain", "net_plastic_strain_error_estimate", "passages_rolled", "passages_left_out", "normal_force_N"):
-            check.that(f"{name}: {key} to the last bit", of[key] == jumped[key])
+            check.that(f"{name}: {key} to the last bit", of[key] == one[key])
 
     # It ends where the steel fails.
     limit = 0.5 * (all_of["net_plastic_strain_percent"][2] + all_of["net_plastic_strain_percent"][3])

@@ -92,13 +92,20 @@ with tempfile.TemporaryDirectory() as folder:
 
     # On the way to the nose: forces by piece, height.
     rolled = ["Rail/Slices place (mm)=210", "Motion/Rolled distance (mm)=9", "Mesh/Finest cell (mm)=0.9", "Output/Write volume=false"]
-    way = run(program, PASSAGE, path("way"), rolled)
+    peaks = ["Peak stress/Region=range", "Peak stress/From (mm)=2", "Peak stress/To (mm)=4", "Peak stress/Depth (mm)=4"]
+    way = run(program, PASSAGE, path("way"), [*rolled, *peaks])
     history = table(path("way"), "history.csv")
     inner, all_of_it = history["inner_normal_force_N"], history["normal_force_N"]
     check.that("the wheel begins on the wing", inner[0] == 0.)
     check.that("and comes to the nose", 0.2 * all_of_it[-1] < inner[-1] < all_of_it[-1])
     check.absolute("height of the wheelset at the end, mm", 1e3 * history["wheelset_height_m"][-1], 1e3 * way["wheelset_height_m"], 0.01)
     check.energy("over the nose: ", way, 3e-3)
+    # Of the nose alone, which the wheel touches there: the wing lies 60 mm beside it.
+    largest = table(path("way"), "peak_stress.csv")
+    check.that("largest stresses are those of the nose, layer by layer", max(largest["y_mm"]) < -25. and len(largest["y_mm"]) == 4 and max(np.diff(largest["von_mises_MPa"][2:])) < 0.
+               and np.allclose(largest["depth_mm"], [0., 0.45, 1.35, 2.7], atol=0.1))
+    on_nose = min(way["patches"], key=lambda patch: patch["y_m"])
+    check.relative("its largest pressure, in all steps up to the last one, MPa", 1e-6 * way["peak_pressure_Pa"], 1e-6 * on_nose["max_pressure_Pa"], 0.03)
 
     # On sleepers it gives way and turns as the load passes, and nothing is lost.
     beam = [*rolled, "Track/Foundation=beam", "Track/Support 0 (mm)=300"]
@@ -146,6 +153,7 @@ with tempfile.TemporaryDirectory() as folder:
     # What is refused, in one line.
     refused = lambda what, scene, settings, words: check.refused(what, program, scene, path("refused"), settings, words)
     refused("slices that end too early", PASSAGE, ["Rail/Slices place (mm)=380"], ["'Rail/Slices' reach from -85.2 to 385.91 mm"])
+    refused("peaks where nothing touches", PASSAGE, [*rolled, *peaks, "Peak stress/From (mm)=-100"], ["must lie on the path of the first wheel", "nose from", "wing from"])
     refused("both wheels", PASSAGE, ["Wheelset/Both wheels=true"], ["'Wheelset/Both wheels' must be false"])
     refused("a beam lighter than its cells", PASSAGE, [*beam, "Track/Beam mass (kg per m)=10"], ["'Track/Beam mass (kg per m)' 10 at x = ", "is needed"])
     refused("a beam with a file of supports", PASSAGE, [*beam, "Track/Support file=some.csv"], ["'Track/Support file' must be empty", "all alike"])

@@ -96,6 +96,12 @@ with tempfile.TemporaryDirectory() as folder:
     short = {**QUIET, "Mesh/Finest cell (mm)": 0.42, "Motion/Rolled distance (mm)": 3, "Contact/Tolerance": 1e-12,
              "Output/Checkpoint interval (minutes)": 0, "Output/History interval (mm)": 0.12, "Time stepping/Levels": 1}
     whole = run(program, ROOT_OF_FLANGE, path("whole"), short)
+    # Friction across the rail counts from the place of a node on the curved surface: all of the patch slides.
+    run(program, ROOT_OF_FLANGE, path("across"), {**short, "Contact/Friction across (mm)": "-36.4,-34.4", "Contact/Friction across factors": "0.2,1"})
+    off = max(abs(math.hypot(r["shear_x_MPa"], r["shear_y_MPa"]) / (0.3 * r["pressure_MPa"]) - min(1., max(0.2, 0.2 + 0.4 * (r["y_mm"] + 36.4))))
+              for r in rows_of(path("across"), "patch.csv"))
+    check.below("flange root: shear over pressure beside the friction across the rail at each node, over the coefficient", off, 0.01)
+
     keys = ("normal_force_N", "longitudinal_force_N", "lateral_force_N", "frictional_power_W", "max_pressure_Pa")
     on_three = run(program, ROOT_OF_FLANGE, path("on three"), short, 3)
     for key in keys:

@@ -109,13 +109,25 @@ namespace tread
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
     /// Of the patch that is nearest.
     Place place_in_rail(const dealii::Point<3> &p) const;
-    /// Of the patch, or the touch of slices, that is nearest; `along` is where this part of the tread meets
-    /// the rail.
-    Place place_in_wheel(const dealii::Point<3> &p, const double start_x) const;
-    /// How far a place of the rail is beside the nearest path of a patch (m).
-    double beside_path(const dealii::Point<3> &p) const;
-    /// How far a patch lies ahead of the axle, or behind it, on all of the way (m).
-    double farthest_ahead() const;
+
+    /// The way of a patch of the own wheel along the rail: of the main one, or of the most loaded on each
+    /// piece of slices.
+    struct Path
+    {
+      const TouchedPiece *piece;      ///< null: the rail is the same everywhere
+      std::string         name;       ///< of the piece; empty: none
+      double              begin, end; ///< x of the patch's reference point at both ends (m)
+      double              half_width; ///< of the widest patch (m)
+      double              ahead;      ///< how far from the axle it is at most, m
+    };
+    /// Those that hold a stretch of the rail; that with the largest force there first.
+    std::vector<Path> paths_over(double begin, double end) const;
+    /// All of them.
+    std::vector<Path> paths() const;
+    /// How far a place of the rail is beside a path (m).
+    double beside(const Path &path, const dealii::Point<3> &p) const;
+    /// Of the patch that rolls there; `along` is where this part of the tread meets the rail.
+    Place place_in_wheel(const dealii::Point<3> &p, const Path &path, const double start_x) const;
 
     const WheelOnRail surfaces;
 
@@ -140,20 +152,16 @@ namespace tread
     Body rail_of_slices(const Scene &scene) const;
     Body wheel_of(const Scene &scene, const Side &side) const;
 
-    /// Of slices, the piece that is nearest, and how far a place is beside its path (m).
-    struct Beside
-    {
-      const TouchedPiece *piece;
-      double              distance;
-    };
-    Beside nearest_piece(const dealii::Point<3> &p) const;
-    /// Where a place is in it.
+    /// How far a place is beside the path of a piece of slices (m).
+    double beside(const TouchedPiece &piece, const dealii::Point<3> &p) const;
+    /// Of slices, where a place is in the piece whose path is nearest.
     Place place_in_slices(const dealii::Point<3> &p) const;
 
     std::vector<Side> sides;
-    double            load;         ///< on a wheel, N
-    double            rise_of_rail; ///< of the wheelset with it, at the start, m/s
-    double            slices_place; ///< along them at x = 0, m
+    double            load;               ///< on a wheel, N
+    double            way_begin, way_end; ///< x of the axle, m
+    double            rise_of_rail;       ///< of the wheelset with it, at the start, m/s
+    double            slices_place;       ///< along them at x = 0, m
     /// Of the slices, by x.
     mutable std::map<double, std::shared_ptr<const std::vector<ProfileCurve>>> sections_at;
     WayOverSlices                                                              slices;

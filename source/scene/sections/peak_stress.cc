@@ -28,8 +28,9 @@ namespace tread
     section.add("From (mm)", from, "x of the beginning of a range.", Double(-1e5, 1e5));
     section.add("To (mm)", to, "x of the end of a range.", Double(-1e5, 1e5));
     section.add("Half width (mm)", half_width,
-                "Half width of the region, to both sides of the first contact, or of each path of a wheelset "
-                "in a position; 0: that of the patch under "
+                "Half width of the region, to both sides of the first contact, or of the path of a wheelset "
+                "in a position: of the largest patch of its own wheel, on slices of the piece that carries "
+                "most in the range; 0: that of the patch under "
                 "the static load, and of a dip's trailing edge no more than to where it runs along the path "
                 "as much as across it.",
                 Double(0., 100.));

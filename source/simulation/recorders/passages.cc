@@ -85,24 +85,22 @@ namespace tread
 
   namespace
   {
-    const bool passages_are_known =
-      know_table(describe("passages.csv", passage_columns())) &&
-      know_summary_keys(
-        SummaryGroup::passages,
-        {{"passages_rolled", "Those that were rolled, and not left out by 'Ratcheting/Jumps'"},
-         {"passages_left_out", "Those over which the change of the steel was extrapolated"},
-         {"jumps", "How often passages were left out"},
-         {"net_plastic_strain",
-          "Largest equivalent of what is left of the rail's plastic strain after the last passage, without "
-          "what goes forth and back, of the cells in the middle of the path"},
-         {"net_plastic_strain_y_m", "y of that cell's centre, before it was deformed"},
-         {"net_plastic_strain_depth_m", "Its depth"},
-         {"net_plastic_strain_of_last_passage",
-          "Largest change of it in the last passage, of the same cells"},
-         {"net_plastic_strain_error_estimate",
-          "How far the jumps may have put it off: half the passages left out times how far the change per "
-          "passage behind the jump was from the expected one, summed"},
-         {"passages_to_failure", "Passage with which it reached 'Ratcheting/Strain at failure (%)'"}});
+    const bool passages_are_known         = know_table(describe("passages.csv", passage_columns()));
+    const bool keys_of_passages_are_known = know_summary_keys(
+      SummaryGroup::passages,
+      {{"passages_rolled", "Those that were rolled, and not left out by 'Ratcheting/Jumps'"},
+       {"passages_left_out", "Those over which the change of the steel was extrapolated"},
+       {"jumps", "How often passages were left out"},
+       {"net_plastic_strain",
+        "Largest equivalent of what is left of the rail's plastic strain after the last passage, without "
+        "what goes forth and back, of the cells in the middle of the path"},
+       {"net_plastic_strain_y_m", "y of that cell's centre, before it was deformed"},
+       {"net_plastic_strain_depth_m", "Its depth"},
+       {"net_plastic_strain_of_last_passage", "Largest change of it in the last passage, of the same cells"},
+       {"net_plastic_strain_error_estimate",
+        "How far the jumps may have put it off: half the passages left out times how far the change per "
+        "passage behind the jump was from the expected one, summed"},
+       {"passages_to_failure", "Passage with which it reached 'Ratcheting/Strain at failure (%)'"}});
 
     /// Whether a place of the reference configuration is where passages are compared, in the middle of the
     /// path.
