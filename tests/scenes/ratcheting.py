@@ -71,7 +71,7 @@ with tempfile.TemporaryDirectory() as folder:
     check.that("in steel that yields there is, from the first wheel on", np.all(first["residual_von_mises_MPa"] > 100.) and np.all(np.diff(first["settlement_um"]) > 0.) and first["settlement_um"][0] > 1.)
 
     # Passages that are rolled beside those that are left out.
-    n = 34  # with two jumps
+    n = 36  # with two jumps
     rolled = run(program, SCENE, path("rolled"), ROLLED + [f"Motion/Passages={n}"])
     jumped = run(program, SCENE, path("jumped"), COARSE + [f"Motion/Passages={n}"])
     all_of, some = columns(path("rolled")), columns(path("jumped"))

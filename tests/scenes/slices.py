@@ -27,14 +27,9 @@ with tempfile.TemporaryDirectory() as folder:
 
     # The same profile at every x: its points once in 60 mm.
     short = ["Mesh/Finest cell (mm)=1", "Wheelset/Lateral shift (mm)=0", "Motion/Rolled distance (mm)=3", "Output/Write volume=false",
-<<<<<<< HEAD
              "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50",
              "Peak stress/Region=range", "Peak stress/From (mm)=-2.5", "Peak stress/To (mm)=-0.5", "Peak stress/Depth (mm)=5"]
-    must_end_well(execute([*arguments_of(CURVE, short, path("points"), "contact-points"), "--shift-to", "1"], program=program))
-=======
-             "Motion/Angular velocity (rad per s)=84.5", "Wheel/Sector thickness (mm)=30", "Wheel/Sector width (mm)=50"]
     must_end_well(execute_often([*arguments_of(CURVE, short, path("points"), "contact-points"), "--shift-to", "1"], program))
->>>>>>> helper-c
     points = table(path("points"), "rail_profile.csv")
     with open(path("same.csv"), "w", encoding="utf-8") as file:
         file.write("x_mm,y_mm,z_mm\n")
@@ -71,8 +66,8 @@ with tempfile.TemporaryDirectory() as folder:
     on_wing, on_nose = (float(given[of]["y_mm"]) - 750. for of in (True, False))  # from the origin of the slices
     nose = run(program, NOSE, path("nose"), [*at_rest, f"Output/Cells=0,{on_wing},0.5;4.1,{on_nose},0.8"])
     for cell, y, depth in ((1, on_wing, 0.5), (2, on_nose, 0.8)):
-        check.absolute(f"cell {cell} that is recorded: y, mm", 1e3 * nose[f"cell_{cell}_y_m"], y, 0.2)
-        check.absolute(f"cell {cell} that is recorded: depth, mm", 1e3 * nose[f"cell_{cell}_depth_m"], depth, 0.2)
+        check.absolute(f"cell {cell} that is recorded: y, mm", 1e3 * nose[f"cell_{cell}_y_m"], y, 0.3)  # cells of up to 0.4 mm
+        check.absolute(f"cell {cell} that is recorded: depth, mm", 1e3 * nose[f"cell_{cell}_depth_m"], depth, 0.3)
     check.absolute("number of patches", len(nose["patches"]), 2, 0)
     for patch in nose["patches"]:
         row  = given[1e3 * patch["y_m"] > 755.]
