@@ -100,8 +100,9 @@ namespace tread
         [&file](const std::string &name) {
           require(unit_of_angle(name) > 0. || name == "y_mm" || name == "dz_mm" || place_in(name),
                   "'" + file + "': the column '" + name +
-                    "' is none of a scan, such as angle_deg, y_mm, dz_mm or y+5: "
-                    "give it such a name, or remove it");
+                    "' is none of a scan, which has angle_deg or angle_rad, y_mm and dz_mm, or in place of "
+                    "these two a "
+                    "column for each place across, such as y+5: give it such a name, or remove it");
           return true;
         },
         "cannot read '" + file + "'");
