@@ -9,8 +9,8 @@ import os
 import sys
 import tempfile
 
-from tread.runs import ROOT, arguments_of, execute
-from loaded_once import execute_often
+from tread.runs import ROOT, arguments_of
+from loaded_once import execute_often, execute_on
 from tread_runner import Check
 
 program = sys.argv[1]
@@ -194,7 +194,7 @@ with tempfile.TemporaryDirectory() as folder:
         stream.write("kept")
 
     def must_fail(what, arguments, words, ranks=1):
-        result = execute_often(arguments, program, timeout=120) if ranks == 1 else execute(arguments, ranks, program, timeout=120)
+        result = execute_on(ranks, arguments, program, timeout=120)
         lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
         check.that(f"{what}: exit code not 0", result.returncode not in (0,) and result.returncode > 0)
         if not check.that(f"{what}: one line", len(lines) == 1):

@@ -14,8 +14,7 @@ import numpy as np
 from tread import half_space
 from tread.creep_table import FORCE, FRICTION, beside_table, random_cases, table_cases
 from tread.files import read_table
-from tread.runs import execute
-from loaded_once import execute_often
+from loaded_once import execute_on
 from tread_runner import Check
 
 program = os.path.abspath(sys.argv[1])
@@ -42,7 +41,7 @@ with tempfile.TemporaryDirectory() as folder:
             writer.writerow(columns)
             writer.writerows(zip(*[[f"{value:.17g}" if isinstance(value, float) else value for value in column] for column in columns.values()]))
         arguments = ["batch", path("cases.csv"), *(["--output", path(output)] if output else []), *more]
-        return execute(arguments, ranks, program) if ranks > 1 else execute_often(arguments, program)
+        return execute_on(ranks, arguments, program)
 
     full = {COLUMNS[name]: np.broadcast_to(value, len(answers["status"])).astype(float) for name, value in cases.items()}
     full["lateral_creepage"] = full["lateral_creepage"] + full["spin_per_m"] * full["element_x_m"] / 6.

@@ -50,3 +50,8 @@ def execute_often(arguments, program, timeout=None):
         ended = execute(arguments, program=program, timeout=timeout)
     print(f"{time.monotonic() - began:6.2f} s:", *arguments, flush=True)
     return ended
+
+
+def execute_on(ranks, arguments, program, timeout=None):
+    """As execute_often() on one rank, as execute() on several."""
+    return execute(arguments, ranks, program, timeout=timeout) if ranks > 1 else execute_often(arguments, program, timeout)

@@ -9,8 +9,8 @@ import os
 import sys
 import tempfile
 
-from tread.runs import arguments_of, execute
-from loaded_once import execute_often
+from tread.runs import arguments_of
+from loaded_once import execute_often, execute_on
 from tread_runner import Check, rows_of, run
 
 program = sys.argv[1]
@@ -23,7 +23,7 @@ SHARES = ["rail_share", "sleeper_share", "rim_share", "web_share", "hub_share", 
 with tempfile.TemporaryDirectory() as folder:
     def modes(output, ranks=1, *more):
         arguments = arguments_of(SCENE, COARSE, output, "modes") + ["--up-to", "1500", *more]
-        return execute(arguments, ranks, program) if ranks > 1 else execute_often(arguments, program)
+        return execute_on(ranks, arguments, program)
 
     def words_of(path):
         with open(os.path.join(path, "modes.csv"), encoding="utf-8") as stream:

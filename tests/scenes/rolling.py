@@ -17,8 +17,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from tread.files import parameters_in, read_summary
-from tread.runs import ROOT, arguments_of, command, environment, execute, must_end_well
-from loaded_once import execute_often
+from tread.runs import ROOT, arguments_of, command, environment, must_end_well
+from loaded_once import execute_often, execute_on
 from tread_runner import Check, press_ctrl_c, rows_of, run, script, table
 
 program, what = sys.argv[1], sys.argv[2]
@@ -55,7 +55,7 @@ def interrupt(output, settings, ranks=1, rows=12, more=()):
 
 def fails(name, arguments, words, ranks=1):
     """One line with these words, and an exit code that says so; a run that hangs ends the test."""
-    result = execute(arguments, ranks, program, timeout=600) if ranks > 1 else execute_often(arguments, program, timeout=600)
+    result = execute_on(ranks, arguments, program, timeout=600)
     lines = [line for line in result.stderr.splitlines() if line.startswith("tread:")]
     if not check.that(name, result.returncode > 0 and len(lines) == 1 and all(word in lines[0] for word in words)):
         print(result.returncode, result.stderr)

@@ -8,8 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from tread.runs import arguments_of, command, environment, execute
-from loaded_once import execute_often
+from tread.runs import arguments_of, command, environment
+from loaded_once import execute_often, execute_on
 from tread_runner import Check, press_ctrl_c, rows_of, run
 
 program = sys.argv[1]
@@ -124,7 +124,7 @@ with tempfile.TemporaryDirectory() as folder:
 
     def sleeper(*more, ranks=1):
         arguments = ["sleeper-stress", path("1"), *more]
-        return execute(arguments, ranks, program) if ranks > 1 else execute_often(arguments, program)
+        return execute_on(ranks, arguments, program)
 
     solved = sleeper("--cell-size", "50")
     print(solved.stdout, solved.stderr)

@@ -9,8 +9,8 @@ import subprocess
 import time
 
 from tread.files import read_parameters
-from tread.runs import ROOT, arguments_of, execute, must_end_well
-from loaded_once import execute_often
+from tread.runs import ROOT, arguments_of, must_end_well
+from loaded_once import execute_often, execute_on
 
 from .engine import Runs, screen_of
 
@@ -38,7 +38,7 @@ class Maker:
         return os.path.join(self.folder, name)
 
     def ended(self, arguments: list[str], ranks: int) -> subprocess.CompletedProcess:
-        return must_end_well(execute(arguments, ranks, self.program) if ranks > 1 else execute_often(arguments, self.program))
+        return must_end_well(execute_on(ranks, arguments, self.program))
 
     def run(self, name: str, scene: str, settings: dict, ranks: int = 1, more: tuple[str, ...] = (), command: str = "run") -> None:
         start = time.monotonic()
