@@ -91,6 +91,7 @@ namespace tread
         require(curves.back().length() <= longest, where + "its points run over " +
                                                      text_in_mm(curves.back().length()) +
                                                      " mm; they must follow each other along the surface");
+        refuse_crossing_line(where, slice.points);
         double last = -1.;
         for (const double at : slice.breaks)
           if (!std::isnan(at))
@@ -109,6 +110,12 @@ namespace tread
             known.y_end   = std::max(known.y_end, p[0]);
           }
       }
+    // Splines through slices that are almost at one place are steep between them.
+    constexpr double closest = 1e-3; // of the mean distance
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      require(all[i + 1].x - all[i].x >= closest * (all.back().x - all.front().x) / (all.size() - 1),
+              "'" + rail.file + "': slices at " + format("%.9g", 1e3 * all[i].x) + " and " +
+                format("%.9g", 1e3 * all[i + 1].x) + " mm are at the same place: is one there twice?");
     known.along_begin = all.front().x;
     known.along_end   = all.back().x;
 

@@ -42,6 +42,12 @@ namespace tread
   }
 
 
+  std::vector<std::string> Surface::doubts() const
+  {
+    return {};
+  }
+
+
   std::optional<Surface::Height> Surface::height(const double along, const double y) const
   {
     const std::optional<OnSection> here = highest_over(sections(along), y);

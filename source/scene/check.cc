@@ -88,11 +88,15 @@ namespace tread
     for (unsigned int k = 0; k < n_wheels(); ++k)
       if (const double traction = traction_coefficient(k);
           traction != 0. && (motion.drive == Drive::torque || !(is_positioned() || motion.creepage)))
-        require(std::abs(traction) < contact.friction_coefficient * contact.friction_factor(path_begin(k)),
-                (k == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
-                  text_of(traction) + " must be below 'Contact/Friction coefficient' " +
-                  text_of(contact.friction_coefficient * contact.friction_factor(path_begin(k))) +
-                  " in size where the wheel begins");
+        {
+          const double factor = contact.varies_across() ? mean_factor_across() : 1.,
+                       limit = contact.friction_coefficient * contact.friction_factor(path_begin(k)) * factor;
+          require(std::abs(traction) < limit,
+                  (k == 0 ? "'Motion/Traction coefficient' " : "'Further wheels/Traction coefficients' ") +
+                    text_of(traction) + " must be below 'Contact/Friction coefficient' " + text_of(limit) +
+                    " in size where the wheel begins" +
+                    (factor != 1. ? ", with a mean factor of " + text_of(factor) + " across its patch" : ""));
+        }
     friction_law();
   }
 

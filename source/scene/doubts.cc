@@ -194,6 +194,9 @@ namespace tread
       list.push_back(
         "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
         "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");
+    if (rail.is_sliced())
+      for (const std::string &doubt : wheel_on_rail().rail_surface().doubts())
+        list.push_back("'Rail/Slices': " + doubt);
     if (has_defect() && !defect.profile_file.empty() && defect.depth == 0. &&
         made_defect()->depth < least_height)
       list.push_back(

@@ -546,6 +546,34 @@ namespace tread
   }
 
 
+  double Scene::mean_factor_across() const
+  {
+    double     sum = 0., weights = 0.;
+    const auto add = [&](const double y, const double weight) {
+      sum += weight * factor_across(Vector3{0., y, 0., 0.});
+      weights += weight;
+    };
+    if (is_positioned())
+      for (const WheelPatch &patch : placed_wheel().patches())
+        for (const PatchNode &node : elements_in_contact(patch))
+          add(patch.region.reference[1] + std::cos(patch.angle()) * node.position[1] -
+                placed_wheel().surfaces.rail_origin_y(),
+              node.pressure);
+    else
+      {
+        // Hertz's pressure, summed along the rail.
+        constexpr int n = 50;
+        for (int k = -n; k <= n; ++k)
+          {
+            const double part = (k + 0.) / (n + 1);
+            add(0.5 * ((1. - part) * patch_extent().begin + (1. + part) * patch_extent().end),
+                1. - part * part);
+          }
+      }
+    return sum / weights;
+  }
+
+
   double Scene::depth_in_rail(const dealii::Point<3> &p) const
   {
     if (is_positioned())

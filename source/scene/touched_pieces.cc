@@ -66,26 +66,27 @@ namespace tread
                (!patch.body.empty() ||
                 std::abs(piece.touches.back().patch.region.reference[1] - y) < same_piece);
       });
-      return found != pieces.end() ? *found : pieces.emplace_back(TouchedPiece{patch.body, {}, apart});
+      return found != pieces.end() ? *found : pieces.emplace_back(TouchedPiece{patch.body, {}, apart, {}});
+    }
+
+    TouchedPiece::Line line_through(const std::vector<TouchedPiece::Touch> &touches)
+    {
+      TouchedPiece::Line line;
+      for (const TouchedPiece::Touch &touch : touches)
+        {
+          line.x += touch.x() / touches.size();
+          line.y += touch.patch.region.reference[1] / touches.size();
+        }
+      double xx = 0., xy = 0.;
+      for (const TouchedPiece::Touch &touch : touches)
+        {
+          xx += std::pow(touch.x() - line.x, 2);
+          xy += (touch.x() - line.x) * (touch.patch.region.reference[1] - line.y);
+        }
+      line.slope = xx > 0. ? xy / xx : 0.;
+      return line;
     }
   } // namespace
-
-
-  double TouchedPiece::y(const double x) const
-  {
-    double mean_x = 0., mean_y = 0., xx = 0., xy = 0.;
-    for (const Touch &touch : touches)
-      {
-        mean_x += touch.x() / touches.size();
-        mean_y += touch.patch.region.reference[1] / touches.size();
-      }
-    for (const Touch &touch : touches)
-      {
-        xx += std::pow(touch.x() - mean_x, 2);
-        xy += (touch.x() - mean_x) * (touch.patch.region.reference[1] - mean_y);
-      }
-    return mean_y + (xx > 0. ? xy / xx * (x - mean_x) : 0.);
-  }
 
 
   double TouchedPiece::inclination() const
@@ -162,6 +163,8 @@ namespace tread
         for (const WheelPatch &patch : contact.patches)
           piece_of(way.pieces, patch, length / n).touches.push_back({way.axles.back(), patch});
       }
+    for (TouchedPiece &piece : way.pieces)
+      piece.line = line_through(piece.touches);
     way.bend = natural_spline(way.axles, way.height);
     std::sort(way.pieces.begin(), way.pieces.end(),
               [](const TouchedPiece &a, const TouchedPiece &b) { return a.y_low() < b.y_low(); });

@@ -3,6 +3,7 @@
 #include <tread/base/format.h>
 #include <tread/scene/parts.h>
 #include <tread/simulation/doubts.h>
+#include <tread/simulation/recorders/history.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -221,6 +222,7 @@ namespace tread
       pace.n_levels         = dynamics.max_level() + 1;
       for (unsigned int level = 0; level < pace.gains.size(); ++level)
         pace.gains[level] = dynamics.ideal_gain_of_levels(level);
+      static_cast<void>(History(model)); // which refuses cells to record that lie outside the rail
       if (!scene.general.quasi_static && scene.time_stepping.least_step == 0.)
         pace.of_longer_steps = longer_steps(model, pace.step);
 

@@ -229,6 +229,8 @@ namespace tread
         {
           const WheelOnRail &here = surfaces.emplace(row.surfaces(), surfaces_of(row)).first->second;
           progress.say(here.rail_surface().in_words() + "; " + here.wheel_surface().in_words());
+          for (const std::string &doubt : here.rail_surface().doubts())
+            progress.say("warning: " + doubt);
         }
 
     std::vector<std::optional<WheelContact>> answers(rows.size());

@@ -217,6 +217,8 @@ with tempfile.TemporaryDirectory() as folder:
     coarse = ["-s", "Mesh/Finest cell (mm)=1.3", "-s", "Mesh/Fine half width (mm)=9"]
     must_fail("a cell beyond the end of the rail, on 3 ranks", base + coarse + ["-s", "Output/Cells=-20,0,1; 900,0,1"],
               ["Output/Cells", "entry 2", "outside the rail"], ranks=3)
+    must_fail("the same when the run is only estimated", base + coarse + ["--dry-run", "-s", "Output/Cells=-20,0,1; 900,0,1"],
+              ["Output/Cells", "entry 2", "outside the rail"])
     must_fail("on 3 ranks, when the mesh is known", base + coarse + ["-s", "Wheel/Mass (kg)=1"], ["Wheel/Mass (kg)"], ranks=3)
 
     # Files with measured profiles.

@@ -236,6 +236,8 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("traction beyond friction", setting("Motion/Traction coefficient=0.6"), ["Motion/Traction coefficient", "below"])
     must_fail("torque beyond friction", setting("Motion/Drive=torque", "Motion/Traction coefficient=-0.5"),
               ["Motion/Traction coefficient", "below"])
+    must_fail("traction beyond what friction across the rail leaves", setting("Contact/Friction across (mm)=-100, 100", "Contact/Friction across factors=0.1, 0.3"),
+              ["Motion/Traction coefficient", "below", "mean factor of 0.2 across"])
     must_fail("traction without friction", setting("Contact/Friction coefficient=0"), ["Motion/Traction coefficient", "below"])
     must_fail("negative friction", setting("Contact/Friction coefficient=-0.1"), ["Contact/Friction coefficient", "allowed"])
     must_fail("creepage that is no number", setting("Motion/Creepage=much"), ["Motion/Creepage", "predicted"])

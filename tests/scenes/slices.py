@@ -60,6 +60,16 @@ with tempfile.TemporaryDirectory() as folder:
     known = input_of(arguments_of(CURVE, [], path("listed"))[0], {"Rail/Slices": path("same.slcs")})["files"]
     check.that("and of what decides about a study's run", {path("same.slcs"), path("same.slcs") + ": section.txt"} <= set(known))
 
+    # One of five that lies too high is said, in the summary too.
+    with open(path("same.csv"), encoding="utf-8") as file:
+        lines = [line.strip().split(",") for line in file]
+    with open(path("high.csv"), "w", encoding="utf-8") as file:
+        file.writelines(f"{x},{y},{z if x != '60' else float(z) + 0.05}\n" for x, y, z in lines)
+    high = run(program, CURVE, path("high"), [*short, "Rail/Shape=slices", f"Rail/Slices={path('high.csv')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"], command="reference")
+    of_slices = lambda summary: [line for line in summary["warnings"] if "fit its neighbours" in line]
+    check.that("a slice that is 50 um too high is named, others are not", len(of_slices(high)) == 1 and "slice at 60 mm" in of_slices(high)[0]
+               and "up to 0.05 mm" in of_slices(high)[0] and not of_slices(listed) + of_slices(slices))
+
     # Wing and nose at rest. Five cells lie over the width of the nose's patch.
     given = {float(row["y_mm"]) > 755.: row for row in rows_of(GIVEN) if (row["s_mm"], row["y_ws_mm"]) == ("160", "3.52")}
     at_rest = ["Rail/Slices place (mm)=160", "Wheelset/Lateral shift (mm)=3.52", "Mesh/Finest cell (mm)=0.19", "Motion/Rolled distance (mm)=0.1", "Output/Write volume=false"]

@@ -37,6 +37,10 @@ namespace tread
   /// @throws InputError if it cannot be read
   bool has_rail_slices(const std::string &file);
 
+  /// Refuses the points of a section that cross or touch themselves. @param where begins the line
+  /// @throws InputError
+  void refuse_crossing_line(const std::string &where, const std::vector<dealii::Point<2>> &points);
+
   /// A rail through slices. Each slice is a cubic spline over the length of its chords. Between two slices
   /// that are cut, each part that both have is sampled at equal shares of its length, between others the
   /// whole slice; along x cubic splines go through the samples of equal share, natural at the ends.
@@ -52,6 +56,10 @@ namespace tread
     bool                      is_constant() const override;
     std::vector<ProfileCurve> sections(double along) const override;
     std::string               body(double along, double y) const override;
+
+    /// A slice that does not fit those around it while these fit each other without it, by leaving out one at
+    /// a time; a distance between two slices that stands out.
+    std::vector<std::string> doubts() const override;
 
   private:
     /// Samples of a part, or of whole slices, over consecutive slices, with their splines along x.

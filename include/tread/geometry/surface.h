@@ -34,6 +34,9 @@ namespace tread
     /// What it is, for messages: "38 slices of nose.csv".
     virtual std::string in_words() const = 0;
 
+    /// What may be wrong with what it is made of, a line each; empty: nothing was seen.
+    virtual std::vector<std::string> doubts() const;
+
     /// Where it is known: along the way, and the largest range of y.
     struct Extent
     {

@@ -189,6 +189,10 @@ namespace tread
     /// @pre contact.varies_across()
     double factor_across(const Vector3 &place) const;
 
+    /// The same over the patch of the static load by half-space theory, weighted with its pressure: what
+    /// friction carries over what it would with a factor of 1.
+    double mean_factor_across() const;
+
     /// The law that the scene names, with its parameters. @throws InputError
     std::shared_ptr<const FrictionLaw> friction_law() const;
 

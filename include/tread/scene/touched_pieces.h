@@ -29,9 +29,16 @@ namespace tread
     std::string        body;    ///< its name in the slices; empty: none
     std::vector<Touch> touches; ///< while the axle moves forward
     double             apart;   ///< places at which contact is solved
-
     /// The straight line nearest to the touches: y at x.
-    double y(double x) const;
+    struct Line
+    {
+      double x = 0., y = 0., slope = 0.;
+    } line;
+
+    double y(double x) const
+    {
+      return line.y + line.slope * (x - line.x);
+    }
     /// Mean inclination of the rail (rad).
     double inclination() const;
     /// The furthest that patches reach to both sides.
