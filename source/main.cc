@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/scene/scene.h>
+#include <tread/scene/checks.h>
 #include <tread/simulation/simulation.h>
 #include <tread/tools/batch_files.h>
 #include <tread/tools/contact_points_files.h>
@@ -159,7 +159,7 @@ namespace
           {
             tread::require(line.command == Command::run,
                            "modes are those of an upright wheel: 'Wheelset' must have no position");
-            scene.check_placed_mesh();
+            check_placed_mesh(scene);
           }
         if (line.command == Command::run)
           return roll(scene, line, folder, comm);

@@ -4,8 +4,10 @@
 #include <tread/mesh/sleeper_body.h>
 #include <tread/mesh/wheel_body.h>
 #include <tread/mesh/whole_rail.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/track_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,17 +39,17 @@ namespace tread
       on_rail.finest_cell_size = scene.mesh.finest_cell;
       on_rail.x_begin          = scene.path_begin(wheel) - beyond_path(scene, ellipse);
       on_rail.x_end            = scene.meshed_end(wheel) + beyond_path(scene, ellipse);
-      on_rail.half_width       = scene.fine_half_width();
+      on_rail.half_width       = fine_half_width(scene);
       on_rail.depth            = scene.mesh.fine_layers * on_rail.finest_cell_size;
       on_rail.cells_per_level  = scene.mesh.cells_per_level;
       on_rail.level_depth  = scene.mesh.level_depth * std::sqrt(ellipse.semi_axis_x * ellipse.semi_axis_y);
-      on_rail.y_middle     = scene.path_y();
+      on_rail.y_middle     = path_y(scene);
       on_rail.window_begin = window.rail_begin;
       on_rail.window_end   = window.rail_end;
-      if (scene.has_cubes())
+      if (has_cubes(scene))
         {
-          on_rail.cubes_begin = scene.cubes().begin;
-          on_rail.cubes_end   = scene.cubes().end;
+          on_rail.cubes_begin = cubes(scene).begin;
+          on_rail.cubes_end   = cubes(scene).end;
           on_rail.path_level  = std::floor(std::log2(scene.mesh.path_cell / scene.mesh.finest_cell) + 1e-9);
           on_rail.path_stretch =
             std::ldexp(scene.mesh.path_cell / scene.mesh.finest_cell, -on_rail.path_level);
@@ -87,7 +89,7 @@ namespace tread
       on_wheel.cubes_begin -= scene.path_begin(wheel);
       on_wheel.cubes_end -= scene.path_begin(wheel);
       on_wheel.x_begin = -beyond_path(scene, ellipse);
-      on_wheel.x_end   = scene.meshed_tread() + beyond_path(scene, ellipse);
+      on_wheel.x_end   = meshed_tread(scene) + beyond_path(scene, ellipse);
       return on_wheel;
     }
 
@@ -140,7 +142,7 @@ namespace tread
           sector.radius             = scene.wheel.radius;
           sector.thickness          = scene.wheel.sector_thickness;
           sector.width              = scene.wheel.sector_width;
-          const Scene::Range arc    = scene.meshed_arc();
+          const Scene::Range arc    = meshed_arc(scene);
           sector.arc_begin          = arc.begin;
           sector.arc_end            = arc.end;
           sector.coarsest_cell_size = scene.mesh.coarsest_cell;
@@ -181,7 +183,7 @@ namespace tread
       box.width              = scene.track.sleeper_width;
       box.y_begin            = -0.5 * scene.track.rail_distance;
       box.y_end              = box.y_begin + 0.5 * scene.track.sleeper_length;
-      box.top                = scene.base_middle()[2] - pad_thickness;
+      box.top                = base_middle(scene)[2] - pad_thickness;
       box.height             = scene.track.solid_sleeper_height();
       box.coarsest_cell_size = std::min(box.height / 3., 0.06);
       return tread::make_sleeper(box);
@@ -191,11 +193,11 @@ namespace tread
 
   FineWindow fine_window(const Scene &scene, const unsigned int number, const double tread)
   {
-    if (!scene.has_window())
+    if (!has_window(scene))
       return {};
-    const Scene::Range stretch = scene.windows().at(number);
-    const double       margin  = scene.window_margin(),
-                 rolling       = (1. + scene.largest_creepage()) * (stretch.end - stretch.begin);
+    const Scene::Range stretch = windows(scene).at(number);
+    const double       margin  = window_margin(scene),
+                 rolling       = (1. + largest_creepage(scene)) * (stretch.end - stretch.begin);
     return {stretch.begin - margin, stretch.end + margin, tread - margin, tread + rolling + margin};
   }
 
@@ -214,7 +216,7 @@ namespace tread
         bodies.back().name = k == 0 ? "wheel" : "wheel " + std::to_string(k + 1);
       }
     if (scene.track.has_solid_sleepers())
-      for (const double x : scene.support_positions())
+      for (const double x : support_positions(scene))
         bodies.push_back(make_sleeper(scene, x));
     return bodies;
   }

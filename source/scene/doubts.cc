@@ -5,9 +5,13 @@
 #include <tread/mesh/mesh_rail.h>
 #include <tread/reference/half_space.h>
 #include <tread/reference/hertz.h>
+#include <tread/scene/checks.h>
+#include <tread/scene/doubts.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/islands.h>
 #include <tread/scene/scene.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/solid/element.h>
 #include <tread/solid/surface_lattice.h>
 
@@ -101,267 +105,126 @@ namespace tread
                             1e3 * scene.path_begin(number));
       return "";
     }
-  } // namespace
 
-
-  std::string Scene::flange_back_elsewhere() const
-  {
-    // A worn or rounded back is not known better.
-    constexpr double tolerance = 3e-3; // m
-    if (!wheel.has_measured_profile())
-      return "";
-    const double given = wheelset.track.back_position;
-    const auto   shown =
-      read_measured_profile(located(wheel.tread_profile), ProfileBody::wheel, wheel.profile_placement)
-        .flange_back;
-    if (!shown || std::abs(given - *shown) <= tolerance)
-      return "";
-    return format(
-      "'Wheelset/Flange back (mm)' %g: the flange of 'Wheel/Tread profile' '%s' has its back at %.1f, so "
-      "that the wheel stands %.1f mm off its place in the track",
-      1e3 * given, wheel.tread_profile.c_str(), 1e3 * *shown, 1e3 * std::abs(given - *shown));
-  }
-
-
-  std::string Scene::short_way() const
-  {
-    if (output.history_interval <= motion.rolled_distance * motion.passages)
-      return "";
-    return format(
-      "'Output/History interval (mm)' %g is longer than the way, %g: history.csv has one row, which is the "
-      "mean over all of it",
-      1e3 * output.history_interval, 1e3 * motion.rolled_distance * motion.passages);
-  }
-
-
-  std::vector<std::string> Scene::implausible_values(const bool stands_in_track) const
-  {
-    std::vector<std::string> list;
-    for (const Parameter &parameter : changed_values())
-      for (const Usual &usual : usual_values)
-        // Wheels of test rigs are as light as they are small.
-        if (parameter.path == usual.path &&
-            (wheel.radius >= smallest_wheel || parameter.path != "Wheel/Mass (kg)"))
-          {
-            const double value = std::strtod(parameter.value.c_str(), nullptr);
-            if (value != 0. && std::isfinite(value) && (value < usual.least || value > usual.largest))
-              list.push_back(format("'%s' %g is far from what there is on railways, %g to %g: is it in %s?",
-                                    usual.path, value, usual.least, usual.largest, usual.but));
-          }
-    // Of supports that have springs of their own one line each column.
-    using Springs = TrackParameters::Springs;
-    for (const auto &[column, path, value, in_si] :
-         {std::tuple("pad_stiffness_MN_per_m", "Track/Pad stiffness (MN per m)", &Springs::pad_stiffness,
-                     1e6),
-          std::tuple("pad_damping_kN_s_per_m", "Track/Pad damping (kN s per m)", &Springs::pad_damping, 1e3),
-          std::tuple("ballast_stiffness_MN_per_m", "Track/Ballast stiffness (MN per m)",
-                     &Springs::ballast_stiffness, 1e6),
-          std::tuple("ballast_damping_kN_s_per_m", "Track/Ballast damping (kN s per m)",
-                     &Springs::ballast_damping, 1e3)})
-      {
-        const auto usual =
-          std::find_if(usual_values.begin(), usual_values.end(),
-                       [path = path](const Usual &u) { return std::string(u.path) == path; });
-        for (const auto &[number, springs] : support_springs)
-          if (const double own = springs.*value / in_si; own > usual->largest)
-            {
-              list.push_back(format("'Track/Support file', support %d: %s %g is far from what there is on "
-                                    "railways, up to %g: is it in %s?",
-                                    number, column, own, usual->largest, usual->but));
-              break;
-            }
-      }
-    if (!vehicle.wheel_load && !vehicle.axle_load && wheel.mass > largest_unsprung_mass &&
-        wheel.mass > vehicle.sprung_mass)
-      list.push_back(format("'Wheel/Mass (kg)' %g, which is not sprung, is more than 'Vehicle/Sprung mass "
-                            "(kg)' %g: are they exchanged?",
-                            wheel.mass, vehicle.sprung_mass));
-    if (const double back = wheelset.track.back_position;
-        !wheel.has_measured_profile() && std::abs(back - named_back) > back_tolerance)
-      list.push_back(format("'Wheelset/Flange back (mm)' %g: the flange of 'Wheel/Tread profile' %s has its "
-                            "back at %g, so that the wheel stands %g mm off its place in the track",
-                            1e3 * back, wheel.tread_profile.c_str(), 1e3 * named_back,
-                            1e3 * std::abs(back - named_back)));
-    if (stands_in_track || is_positioned())
-      if (const std::string elsewhere = flange_back_elsewhere(); !elsewhere.empty())
-        list.push_back(elsewhere);
-    if (wheelset_motion && wheelset_motion->largest_lateral_speed() > largest_lateral_speed)
-      list.push_back(
-        format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
-               "(above %g m/s): are its shifts in mm and its times in s?",
-               wheelset_motion->largest_lateral_speed(), largest_lateral_speed));
-    if (!is_round() && largest_deviation() < least_height)
-      list.push_back(
-        "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
-        "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");
-    if (rail.is_sliced())
-      for (const std::string &doubt : wheel_on_rail().rail_surface().doubts())
-        list.push_back("'Rail/Slices': " + doubt);
-    if (has_defect() && !defect.profile_file.empty() && defect.depth == 0. &&
-        made_defect()->depth < least_height)
-      list.push_back(
-        format("'Defect/Profile file': heights of at most %.3g um, less than a ground surface is "
-               "rough; they are read in mm: are they in m?",
-               1e6 * made_defect()->depth));
-    return list;
-  }
-
-
-  double Scene::cell_along(const double begin, const double end) const
-  {
-    return is_finest(begin, end) ? mesh.finest_cell : std::max(mesh.finest_cell, mesh.path_cell);
-  }
-
-
-  double Scene::detail_along() const
-  {
-    const Defect *made    = made_defect();
-    const bool    is_file = made && (defect.shape == "profile" || defect.shape == "map");
-    if (!is_file && is_round())
-      return 0.;
-    constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
-    const double           a       = hertz(*this, static_load()).semi_axis_x;
-    double                 largest = 0.;
-    const auto             look = [&](const double cell, const double from, const double to, const bool alike,
-                          const std::function<double(double, double)> &height) {
-      if (!(to > from))
-        return;
-      const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
-      for (unsigned int line = 0; line < n_across; ++line)
-        {
-          const double y =
-            patch_extent().begin + (patch_extent().end - patch_extent().begin) * (line + 0.5) / n_across;
-          // Where the nodes lie is not known: the way between them begins with the defect.
-          std::vector<double> squares(n, 0.);
-          for (unsigned int k = 0; k < n; ++k)
-            {
-              double of_node[4];
-              for (unsigned int i = 0; i < 4; ++i)
-                of_node[i] = height(from + (k + i - 1. + 0.5) * cell, y);
-              for (unsigned int j = 1; j < n_between; ++j)
-                {
-                  const double s        = double(j) / n_between;
-                  const double of_nodes = cubic_between(of_node, s);
-                  const double off      = height(from + (k + s + 0.5) * cell, y) - of_nodes;
-                  squares[k] += off * off / (n_between - 1.);
-                }
-            }
-          double sum = 0.;
-          for (unsigned int k = 0; k < n; ++k)
-            {
-              sum += squares[k] - (k >= window ? squares[k - window] : 0.);
-              largest = std::max(largest, std::sqrt(std::max(0., sum) / std::min(n, window)));
-            }
-          if (alike)
-            break;
-        }
-    };
-    if (is_file)
-      {
-        std::vector<double> begins(made->repeated_at);
-        begins.push_back(made->begin);
-        for (const double begin : begins)
-          {
-            const double cell = cell_along(begin, begin + made->length);
-            look(cell, std::max(begin - 2. * cell, path_begin(last_wheel()) - a),
-                 std::min(begin + made->length + 2. * cell, meshed_end() + a), std::isinf(made->width),
-                 [&](const double x, const double y) { return made->height(x, y); });
-          }
-      }
-    if (!is_round())
-      look(cell_along(path_begin(), meshed_end()), -a, motion.meshed_distance() + a, false,
-           [&](const double way, const double y) { return surfaces().deviation(way / wheel.radius, y); });
-    return largest;
-  }
-
-
-  std::string Scene::unseen_detail_along() const
-  {
-    // As across: Westergaard's pressure under waves of two cells' length that are pressed flat.
-    constexpr double large  = 0.1;
-    const double     detail = detail_along(), load = static_load();
-    if (!(detail > 0. && load > 0.))
-      return "";
-    const Defect *made = made_defect();
-    const double  cell = made && is_round() ? cell_along(made->begin, made->begin + made->length)
-                                            : cell_along(path_begin(), meshed_end());
-    const reference::RollingCase touching = half_space_case(*this, load, 0.);
-    const double                 modulus  = reference::combine(touching.wheel, touching.rail).hertz_modulus(),
-                 share                    = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
-                         (2. * cell * hertz(touching).max_pressure);
-    if (!(share > large))
-      return "";
-    return format(
-      "%s has detail along the rail of %.2g um within a cell of %.3g mm, noise or "
-      "a step, which a pressure of %.0f %% of Hertz's presses flat (above %g %%): pressure and stress "
-      "depend on the cells; %s, or use smaller cells",
-      is_round() ? "'Defect/Profile file'" : "'Wheel/Deviation'", 1e6 * detail, 1e3 * cell, 100. * share,
-      100. * large,
-      is_round() ? "smooth the file, give 'Defect/Ramp (mm)' where it begins with a step"
-                 : "give 'Wheel/Deviation smoothing (mm)'");
-  }
-
-
-  std::string Scene::missed_defect() const
-  {
-    if (!has_defect() || !misses_defect())
-      return "";
-    const Defect &made = *made_defect();
-    return format(
-      "the contact does NOT reach the defect, from %.2f to %.2f mm: the wheel rolls from %.2f to %.2f "
-      "mm, and its patch is from y = %.2f to %.2f mm; look at 'Defect/Position (mm)', 'Lateral position "
-      "(mm)', 'Motion/Start (mm)' and 'Rolled distance (mm)'",
-      1e3 * made.begin, 1e3 * (made.begin + made.length), 1e3 * path_begin(), 1e3 * meshed_end(),
-      1e3 * patch_extent().begin, 1e3 * patch_extent().end);
-  }
-
-
-  std::string Scene::narrow_island() const
-  {
-    // As many cells as check() wants of the whole patch; less than a hundredth of the load is no matter.
-    constexpr double least_cells = 2. / 0.45, least_share = 0.01;
-    struct Narrow
+    std::string flange_back_elsewhere(const Scene &scene)
     {
-      std::string patch;
-      Island      island;
-      double      size;
-    };
-    std::vector<Narrow> narrow;
-    const auto          look = [&](const std::vector<Island> &islands, const std::string &patch) {
-      for (const Island &island : islands)
-        if (const double size = std::min(island.y_end - island.y_begin, island.x_end - island.x_begin);
-            island.force >= least_share * static_load() && size < least_cells * mesh.finest_cell)
-          narrow.push_back({patch, island, size});
-    };
-    if (is_positioned())
+      // A worn or rounded back is not known better.
+      constexpr double tolerance = 3e-3; // m
+      if (!scene.wheel.has_measured_profile())
+        return "";
+      const double given = scene.wheelset.track.back_position;
+      const auto   shown = read_measured_profile(scene.located(scene.wheel.tread_profile), ProfileBody::wheel,
+                                                 scene.wheel.profile_placement)
+                           .flange_back;
+      if (!shown || std::abs(given - *shown) <= tolerance)
+        return "";
+      return format(
+        "'Wheelset/Flange back (mm)' %g: the flange of 'Wheel/Tread profile' '%s' has its back at %.1f, so "
+        "that the wheel stands %.1f mm off its place in the track",
+        1e3 * given, scene.wheel.tread_profile.c_str(), 1e3 * *shown, 1e3 * std::abs(given - *shown));
+    }
+
+    std::string short_way(const Scene &scene)
+    {
+      if (scene.output.history_interval <= scene.motion.rolled_distance * scene.motion.passages)
+        return "";
+      return format(
+        "'Output/History interval (mm)' %g is longer than the way, %g: history.csv has one row, which is the "
+        "mean over all of it",
+        1e3 * scene.output.history_interval, 1e3 * scene.motion.rolled_distance * scene.motion.passages);
+    }
+
+    double cell_along(const Scene &scene, const double begin, const double end)
+    {
+      return is_finest(scene, begin, end) ? scene.mesh.finest_cell
+                                          : std::max(scene.mesh.finest_cell, scene.mesh.path_cell);
+    }
+
+    std::string unseen_detail_along(const Scene &scene)
+    {
+      // As across: Westergaard's pressure under waves of two cells' length that are pressed flat.
+      constexpr double large  = 0.1;
+      const double     detail = detail_along(scene), load = scene.static_load();
+      if (!(detail > 0. && load > 0.))
+        return "";
+      const Defect                *made     = scene.made_defect();
+      const double                 cell     = made && scene.is_round()
+                                                ? cell_along(scene, made->begin, made->begin + made->length)
+                                                : cell_along(scene, scene.path_begin(), scene.meshed_end());
+      const reference::RollingCase touching = half_space_case(scene, load, 0.);
+      const double modulus = reference::combine(touching.wheel, touching.rail).hertz_modulus(),
+                   share   = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
+                           (2. * cell * hertz(touching).max_pressure);
+      if (!(share > large))
+        return "";
+      return format(
+        "%s has detail along the rail of %.2g um within a cell of %.3g mm, noise or "
+        "a step, which a pressure of %.0f %% of Hertz's presses flat (above %g %%): pressure and stress "
+        "depend on the cells; %s, or use smaller cells",
+        scene.is_round() ? "'Defect/Profile file'" : "'Wheel/Deviation'", 1e6 * detail, 1e3 * cell,
+        100. * share, 100. * large,
+        scene.is_round() ? "smooth the file, give 'Defect/Ramp (mm)' where it begins with a step"
+                         : "give 'Wheel/Deviation smoothing (mm)'");
+    }
+
+    std::string missed_defect(const Scene &scene)
+    {
+      if (!scene.has_defect() || !misses_defect(scene))
+        return "";
+      const Defect &made = *scene.made_defect();
+      return format(
+        "the contact does NOT reach the defect, from %.2f to %.2f mm: the wheel rolls from %.2f to %.2f "
+        "mm, and its patch is from y = %.2f to %.2f mm; look at 'Defect/Position (mm)', 'Lateral position "
+        "(mm)', 'Motion/Start (mm)' and 'Rolled distance (mm)'",
+        1e3 * made.begin, 1e3 * (made.begin + made.length), 1e3 * scene.path_begin(),
+        1e3 * scene.meshed_end(), 1e3 * scene.patch_extent().begin, 1e3 * scene.patch_extent().end);
+    }
+
+    std::string narrow_island(const Scene &scene)
+    {
+      // As many cells as check() wants of the whole patch; less than a hundredth of the load is no matter.
+      constexpr double least_cells = 2. / 0.45, least_share = 0.01;
+      struct Narrow
       {
-        for (const WheelPatch &patch : placed_wheel().patches())
-          look(islands_of(patch.solution.grid, patch.solution.pressure),
-               "patch " + std::to_string(&patch - placed_wheel().patches().data() + 1));
-        for (const TouchedPiece &piece : placed_wheel().way().pieces)
-          for (const TouchedPiece::Touch &touch : piece.touches)
-            look(islands_of(touch.patch.solution.grid, touch.patch.solution.pressure),
-                 format("the patch at %.1f mm along the slices", 1e3 * position_at(touch.x()).along));
-      }
-    else if (!is_between_planes()) // whose patch goes on as its own image
-      look(shapes->islands, "the patch");
-    if (narrow.empty())
-      return "";
-    const Narrow &worst = *std::min_element(narrow.begin(), narrow.end(),
-                                            [](const Narrow &a, const Narrow &b) { return a.size < b.size; });
-    const Island &at    = worst.island;
-    return format("a part of %s by half-space theory, %.2f mm long and %.2f mm wide, with %.1f %% of the "
-                  "load, has %.1f cells of "
-                  "'Mesh/Finest cell (mm)' %g (below %.1f), which find too low a pressure; at most %.2g mm%s",
-                  worst.patch.c_str(), 1e3 * (at.x_end - at.x_begin), 1e3 * (at.y_end - at.y_begin),
-                  100. * at.force / static_load(), worst.size / mesh.finest_cell, 1e3 * mesh.finest_cell,
-                  least_cells, 1e3 * worst.size / least_cells,
-                  narrow.size() > 1 ? format("; %u more like it", unsigned(narrow.size() - 1)).c_str() : "");
-  }
+        std::string patch;
+        Island      island;
+        double      size;
+      };
+      std::vector<Narrow> narrow;
+      const auto          look = [&](const std::vector<Island> &islands, const std::string &patch) {
+        for (const Island &island : islands)
+          if (const double size = std::min(island.y_end - island.y_begin, island.x_end - island.x_begin);
+              island.force >= least_share * scene.static_load() &&
+              size < least_cells * scene.mesh.finest_cell)
+            narrow.push_back({patch, island, size});
+      };
+      if (scene.is_positioned())
+        {
+          for (const WheelPatch &patch : scene.placed_wheel().patches())
+            look(islands_of(patch.solution.grid, patch.solution.pressure),
+                 "patch " + std::to_string(&patch - scene.placed_wheel().patches().data() + 1));
+          for (const TouchedPiece &piece : scene.placed_wheel().way().pieces)
+            for (const TouchedPiece::Touch &touch : piece.touches)
+              look(islands_of(touch.patch.solution.grid, touch.patch.solution.pressure),
+                   format("the patch at %.1f mm along the slices", 1e3 * scene.position_at(touch.x()).along));
+        }
+      else if (!scene.is_between_planes()) // whose patch goes on as its own image
+        look(scene.islands(), "the patch");
+      if (narrow.empty())
+        return "";
+      const Narrow &worst = *std::min_element(
+        narrow.begin(), narrow.end(), [](const Narrow &a, const Narrow &b) { return a.size < b.size; });
+      const Island &at = worst.island;
+      return format(
+        "a part of %s by half-space theory, %.2f mm long and %.2f mm wide, with %.1f %% of the "
+        "load, has %.1f cells of "
+        "'Mesh/Finest cell (mm)' %g (below %.1f), which find too low a pressure; at most %.2g mm%s",
+        worst.patch.c_str(), 1e3 * (at.x_end - at.x_begin), 1e3 * (at.y_end - at.y_begin),
+        100. * at.force / scene.static_load(), worst.size / scene.mesh.finest_cell,
+        1e3 * scene.mesh.finest_cell, least_cells, 1e3 * worst.size / least_cells,
+        narrow.size() > 1 ? format("; %u more like it", unsigned(narrow.size() - 1)).c_str() : "");
+    }
 
-
-  namespace
-  {
     /// Cells are cubes to within some per cent, and at the border of what has weights cubes may have some
     /// alone.
     bool has_weights_near_cubes(SurfaceWeights weights)
@@ -434,16 +297,213 @@ namespace tread
   } // namespace
 
 
-  std::vector<std::string> Scene::doubts() const
+  std::vector<std::string> implausible_values(const Scene &scene, const bool stands_in_track)
   {
-    std::vector<std::string> list = implausible_values();
+    std::vector<std::string> list;
+    for (const Scene::Parameter &parameter : scene.changed_values())
+      for (const Usual &usual : usual_values)
+        // Wheels of test rigs are as light as they are small.
+        if (parameter.path == usual.path &&
+            (scene.wheel.radius >= smallest_wheel || parameter.path != "Wheel/Mass (kg)"))
+          {
+            const double value = std::strtod(parameter.value.c_str(), nullptr);
+            if (value != 0. && std::isfinite(value) && (value < usual.least || value > usual.largest))
+              list.push_back(format("'%s' %g is far from what there is on railways, %g to %g: is it in %s?",
+                                    usual.path, value, usual.least, usual.largest, usual.but));
+          }
+    // Of supports that have springs of their own one line each column.
+    using Springs = TrackParameters::Springs;
+    for (const auto &[column, path, value, in_si] :
+         {std::tuple("pad_stiffness_MN_per_m", "Track/Pad stiffness (MN per m)", &Springs::pad_stiffness,
+                     1e6),
+          std::tuple("pad_damping_kN_s_per_m", "Track/Pad damping (kN s per m)", &Springs::pad_damping, 1e3),
+          std::tuple("ballast_stiffness_MN_per_m", "Track/Ballast stiffness (MN per m)",
+                     &Springs::ballast_stiffness, 1e6),
+          std::tuple("ballast_damping_kN_s_per_m", "Track/Ballast damping (kN s per m)",
+                     &Springs::ballast_damping, 1e3)})
+      {
+        const auto usual =
+          std::find_if(usual_values.begin(), usual_values.end(),
+                       [path = path](const Usual &u) { return std::string(u.path) == path; });
+        for (const auto &[number, springs] : scene.springs_of_supports())
+          if (const double own = springs.*value / in_si; own > usual->largest)
+            {
+              list.push_back(format("'Track/Support file', support %d: %s %g is far from what there is on "
+                                    "railways, up to %g: is it in %s?",
+                                    number, column, own, usual->largest, usual->but));
+              break;
+            }
+      }
+    if (!scene.vehicle.wheel_load && !scene.vehicle.axle_load && scene.wheel.mass > largest_unsprung_mass &&
+        scene.wheel.mass > scene.vehicle.sprung_mass)
+      list.push_back(format("'Wheel/Mass (kg)' %g, which is not sprung, is more than 'Vehicle/Sprung mass "
+                            "(kg)' %g: are they exchanged?",
+                            scene.wheel.mass, scene.vehicle.sprung_mass));
+    if (const double back = scene.wheelset.track.back_position;
+        !scene.wheel.has_measured_profile() && std::abs(back - named_back) > back_tolerance)
+      list.push_back(format("'Wheelset/Flange back (mm)' %g: the flange of 'Wheel/Tread profile' %s has its "
+                            "back at %g, so that the wheel stands %g mm off its place in the track",
+                            1e3 * back, scene.wheel.tread_profile.c_str(), 1e3 * named_back,
+                            1e3 * std::abs(back - named_back)));
+    if (stands_in_track || scene.is_positioned())
+      if (const std::string elsewhere = flange_back_elsewhere(scene); !elsewhere.empty())
+        list.push_back(elsewhere);
+    if (scene.motion_of_wheelset() &&
+        scene.motion_of_wheelset()->largest_lateral_speed() > largest_lateral_speed)
+      list.push_back(
+        format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
+               "(above %g m/s): are its shifts in mm and its times in s?",
+               scene.motion_of_wheelset()->largest_lateral_speed(), largest_lateral_speed));
+    if (!scene.is_round() && scene.largest_deviation() < least_height)
+      list.push_back(
+        "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
+        "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");
+    if (scene.rail.is_sliced())
+      for (const std::string &doubt : scene.wheel_on_rail().rail_surface().doubts())
+        list.push_back("'Rail/Slices': " + doubt);
+    if (scene.has_defect() && !scene.defect.profile_file.empty() && scene.defect.depth == 0. &&
+        scene.made_defect()->depth < least_height)
+      list.push_back(
+        format("'Defect/Profile file': heights of at most %.3g um, less than a ground surface is "
+               "rough; they are read in mm: are they in m?",
+               1e6 * scene.made_defect()->depth));
+    return list;
+  }
+
+
+  double detail_along(const Scene &scene)
+  {
+    const Defect *made    = scene.made_defect();
+    const bool    is_file = made && (scene.defect.shape == "profile" || scene.defect.shape == "map");
+    if (!is_file && scene.is_round())
+      return 0.;
+    constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
+    const double           a       = hertz(scene, scene.static_load()).semi_axis_x;
+    double                 largest = 0.;
+    const auto             look = [&](const double cell, const double from, const double to, const bool alike,
+                          const std::function<scene.double(double, double)> &height) {
+      if (!(to > from))
+        return;
+      const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
+      for (unsigned int line = 0; line < n_across; ++line)
+        {
+          const double y = scene.patch_extent().begin +
+                           (scene.patch_extent().end - scene.patch_extent().begin) * (line + 0.5) / n_across;
+          // Where the nodes lie is not known: the way between them begins with the defect.
+          std::vector<double> squares(n, 0.);
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              double of_node[4];
+              for (unsigned int i = 0; i < 4; ++i)
+                of_node[i] = height(from + (k + i - 1. + 0.5) * cell, y);
+              for (unsigned int j = 1; j < n_between; ++j)
+                {
+                  const double s        = scene.double(j) / n_between;
+                  const double of_nodes = cubic_between(of_node, s);
+                  const double off      = height(from + (k + s + 0.5) * cell, y) - of_nodes;
+                  squares[k] += off * off / (n_between - 1.);
+                }
+            }
+          double sum = 0.;
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              sum += squares[k] - (k >= window ? squares[k - window] : 0.);
+              largest = std::max(largest, std::sqrt(std::max(0., sum) / std::min(n, window)));
+            }
+          if (alike)
+            break;
+        }
+    };
+    if (is_file)
+      {
+        std::vector<double> begins(made->repeated_at);
+        begins.push_back(made->begin);
+        for (const double begin : begins)
+          {
+            const double cell = cell_along(scene, begin, begin + made->length);
+            look(cell, std::max(begin - 2. * cell, scene.path_begin(scene.last_wheel()) - a),
+                 std::min(begin + made->length + 2. * cell, scene.meshed_end() + a), std::isinf(made->width),
+                 [&](const double x, const double y) { return made->height(x, y); });
+          }
+      }
+    if (!scene.is_round())
+      look(cell_along(scene, scene.path_begin(), scene.meshed_end()), -a, scene.motion.meshed_distance() + a,
+           false, [&](const double way, const double y) {
+             return scene.surfaces().deviation(way / scene.wheel.radius, y);
+           });
+    return largest;
+  }
+
+
+  std::vector<std::string> doubts(const Scene &scene)
+  {
+    std::vector<std::string> list = implausible_values(scene);
     for (const std::string &doubt :
-         {missed_defect(), begins_on_defect(*this), unseen_detail_along(), narrow_island(), short_memory(),
-          short_way(), unmatched_surface(*this), soft_layer_on_beam(*this), blow_on_a_mass(*this)})
+         {missed_defect(scene), begins_on_defect(scene), unseen_detail_along(scene), narrow_island(scene),
+          short_memory(scene), short_way(scene), unmatched_surface(scene), soft_layer_on_beam(scene),
+          blow_on_a_mass(scene)})
       if (!doubt.empty())
         list.push_back(doubt);
-    if (rail_mesh())
-      list.insert(list.end(), rail_mesh()->mesh.doubts.begin(), rail_mesh()->mesh.doubts.end());
+    if (scene.rail_mesh())
+      list.insert(list.end(), scene.rail_mesh()->mesh.doubts.begin(), scene.rail_mesh()->mesh.doubts.end());
     return list;
+  }
+
+
+  double detail_within_cells(const Scene &scene)
+  {
+    if (scene.is_positioned())
+      return 0.;
+    constexpr unsigned int n_between = 8; // places from node to node
+    const double           cell      = scene.mesh.finest_cell;
+    double                 sum       = 0.;
+    unsigned int           n         = 0;
+    for (double y = scene.patch_extent().begin + cell; y + 2. * cell <= scene.patch_extent().end; y += cell)
+      {
+        double of_node[4]; // around the second of three cells
+        for (unsigned int i = 0; i < 4; ++i)
+          of_node[i] = scene.surfaces().gap(y + (i - 1.) * cell);
+        for (unsigned int k = 1; k < n_between; ++k)
+          {
+            const double s = scene.double(k) / n_between; // Lagrange's cubic
+            const double of_nodes =
+              -s * (s - 1.) * (s - 2.) / 6. * of_node[0] + (s + 1.) * (s - 1.) * (s - 2.) / 2. * of_node[1] -
+              (s + 1.) * s * (s - 2.) / 2. * of_node[2] + (s + 1.) * s * (s - 1.) / 6. * of_node[3];
+            if (const double off = scene.surfaces().gap(y + s * cell) - of_nodes; std::isfinite(off))
+              {
+                sum += off * off;
+                ++n;
+              }
+          }
+      }
+    return n > 0 ? std::sqrt(sum / n) : 0.;
+  }
+
+
+  bool misses_defect(const Scene &scene)
+  {
+    const Defect &made = *scene.made_defect();
+    // A wheelset may move across its rails.
+    if (scene.is_positioned() || scene.static_load() <= 0.)
+      return false;
+    const Scene::Range beyond = reach_of(scene, -extremes_of(made.shape).first * made.depth);
+    // As wide as the zone of fine cells would be, for what inertia adds to the load.
+    constexpr double room = 1.35;
+    const double     a    = room * hertz(scene, scene.static_load()).semi_axis_x + scene.mesh.finest_cell +
+                     beyond.begin,
+                 middle     = 0.5 * (scene.patch_extent().begin + scene.patch_extent().end),
+                 half_width = room * 0.5 * (scene.patch_extent().end - scene.patch_extent().begin) +
+                              scene.mesh.finest_cell + beyond.end;
+    if (std::abs(made.y_middle - middle) > half_width + 0.5 * made.width)
+      return true;
+    std::vector<double> begins(made.repeated_at);
+    begins.push_back(made.begin);
+    return std::none_of(begins.begin(), begins.end(), [&](const double begin) {
+      for (unsigned int number = 0; number < scene.n_wheels(); ++number)
+        if (begin < scene.path_begin(number) + scene.motion.meshed_distance() + a &&
+            begin + made.length > scene.path_begin(number) - a)
+          return true;
+      return false;
+    });
   }
 } // namespace tread

@@ -6,6 +6,7 @@
 #include <tread/reference/fatigue.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/surface_laws.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +41,7 @@ namespace tread
     const double           y_middle = scene.first_contact().y;
     if (scene.contact.varies_across())
       c.place_factor = [&scene, y_middle](const double, const double y) {
-        return scene.factor_across(Vector3{0., y_middle + y, 0., 0.});
+        return factor_across(scene, Vector3{0., y_middle + y, 0., 0.});
       };
     if (!scene.rail.is_block() || surfaces.tread_offset)
       c.gap = [curvature_x = c.curvature_x, surfaces, y_middle,
@@ -77,7 +78,7 @@ namespace tread
   void set_friction(reference::Friction &c, const Scene &scene, const double x)
   {
     const double factor = scene.contact.friction_factor(x);
-    const auto   law    = scene.friction_law();
+    const auto   law    = friction_law(scene);
     c.friction          = factor * law->coefficient(0.);
     c.slip_friction.reset();
     if (!scene.contact.friction_pressures.empty())
@@ -325,7 +326,7 @@ namespace tread
 
   void summarise_damage(Summary &summary, const Scene &scene, const std::vector<DamageIndex::Load> &loads)
   {
-    const DamageIndices                         indices = scene.indices_of_damage();
+    const DamageIndices                         indices = indices_of_damage(scene);
     std::vector<std::pair<std::string, double>> worst;
     for (const DamageIndex::Load &load : loads)
       for (const auto &[key, value] : damage_of(indices, load))
@@ -397,7 +398,7 @@ namespace tread
     summary.set("t_gamma_N", patch.frictional_power / scene.motion.speed);
     summarise_damage(summary, scene,
                      {{normal, std::hypot(answer.force[0], answer.force[1]), patch.area, patch.max_pressure,
-                       patch.frictional_power / scene.motion.speed, scene.shear_strength()}});
+                       patch.frictional_power / scene.motion.speed, shear_strength(scene)}});
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A rail from the user's own mesh: its surface as the scene asks for it, and what it must have.
+#include <tread/scene/checks.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 
@@ -69,6 +70,29 @@ namespace tread
         rail.mesh.doubts.push_back(doubt);
       for (std::string &doubt : rail.mesh.doubts)
         doubt = "'Rail/Mesh file': " + doubt;
+    }
+
+    void check_slice(const Scene &scene, const std::string &file)
+    {
+      const FacetSurface::Range across = scene.rail_mesh()->surface.across(scene.path_begin(), 0.);
+      constexpr double          alike = 1e-6, level = 1e-7; // m
+      require(!scene.wheel.is_full() && std::abs(across.end - 0.5 * scene.wheel.sector_width) < alike &&
+                std::abs(across.begin + 0.5 * scene.wheel.sector_width) < alike,
+              file + "lies between planes of symmetry at y = " + from_to_in_mm(across.begin, across.end) +
+                ", between which the wheel must fit: 'Wheel/Shape' sector with 'Sector width (mm)' " +
+                text_in_mm(across.end - across.begin) + ", and a rail with its middle at y = 0");
+      require(
+        scene.wheel.lateral_position == 0.,
+        "'Wheel/Lateral position (mm)' must be 0 on a rail between planes of symmetry, which hold the wheel");
+      const auto gap = [&](const double share) {
+        return scene.surfaces().gap(share * scene.surfaces().half_width);
+      };
+      for (const double share : {-1., -0.5, 0.5, 1.})
+        require(std::abs(gap(share) - gap(0.)) < level,
+                file +
+                  "lies between planes of symmetry, in plane strain: rail and wheel must be level across, "
+                  "and their distance changes by " +
+                  text_in_mm(std::abs(gap(share) - gap(0.))) + " mm");
     }
   } // namespace
 
@@ -156,64 +180,42 @@ namespace tread
   }
 
 
-  std::string Scene::uneven_in_words() const
+  std::string uneven_in_words(const Scene &scene)
   {
-    return shapes->unevenness < no_rail ? text_in_mm(shapes->unevenness) + " mm" : "a gap";
+    return scene.unevenness() < no_rail ? text_in_mm(scene.unevenness()) + " mm" : "a gap";
   }
 
 
-  void Scene::check_slice(const std::string &file) const
+  void check_mesh_rail(const Scene &scene)
   {
-    const FacetSurface::Range across = rail_mesh()->surface.across(path_begin(), 0.);
-    constexpr double          alike = 1e-6, level = 1e-7; // m
-    require(!wheel.is_full() && std::abs(across.end - 0.5 * wheel.sector_width) < alike &&
-              std::abs(across.begin + 0.5 * wheel.sector_width) < alike,
-            file + "lies between planes of symmetry at y = " + from_to_in_mm(across.begin, across.end) +
-              ", between which the wheel must fit: 'Wheel/Shape' sector with 'Sector width (mm)' " +
-              text_in_mm(across.end - across.begin) + ", and a rail with its middle at y = 0");
-    require(
-      wheel.lateral_position == 0.,
-      "'Wheel/Lateral position (mm)' must be 0 on a rail between planes of symmetry, which hold the wheel");
-    const auto gap = [&](const double share) {
-      return surfaces().gap(share * surfaces().half_width);
-    };
-    for (const double share : {-1., -0.5, 0.5, 1.})
-      require(std::abs(gap(share) - gap(0.)) < level,
-              file +
-                "lies between planes of symmetry, in plane strain: rail and wheel must be level across, "
-                "and their distance changes by " +
-                text_in_mm(std::abs(gap(share) - gap(0.))) + " mm");
-  }
-
-
-  void Scene::check_mesh_rail() const
-  {
-    const FacetSurface &surface = rail_mesh()->surface;
-    const std::string   file    = "'Rail/Mesh file': '" + located(rail.mesh_file) + "' ";
-    const double        a = hertz(*this, static_load()).semi_axis_x, from = path_begin(last_wheel()) - 3. * a,
-                 to = meshed_end() + 3. * a;
+    const FacetSurface &surface = scene.rail_mesh()->surface;
+    const std::string   file    = "'Rail/Mesh file': '" + scene.located(scene.rail.mesh_file) + "' ";
+    const double        a       = hertz(scene, scene.static_load()).semi_axis_x,
+                 from = scene.path_begin(scene.last_wheel()) - 3. * a, to = scene.meshed_end() + 3. * a;
     require(surface.along().begin <= from && surface.along().end >= to,
             file + "has a contact surface for x from " +
               from_to_in_mm(surface.along().begin, surface.along().end) +
               "; the path and three semi-axes of the patch at both ends are from " + from_to_in_mm(from, to) +
               ": mesh a longer rail, or change 'Motion/Start (mm)' and 'Rolled distance (mm)'");
-    if (is_between_planes())
-      check_slice(file);
-    require(std::abs(first_contact().y) < 0.99 * surfaces().half_width,
-            file + "and the wheel touch at y = " + text_in_mm(first_contact().y) +
+    if (scene.is_between_planes())
+      check_slice(scene, file);
+    require(std::abs(scene.first_contact().y) < 0.99 * scene.surfaces().half_width,
+            file + "and the wheel touch at y = " + text_in_mm(scene.first_contact().y) +
               " mm, at the edge of the contact surface, which is known up to " +
-              text_in_mm(surfaces().half_width) + " mm at both sides where the wheel begins");
-    require(is_between_planes() ||
-              std::max(-patch_extent().begin, patch_extent().end) + mesh.finest_cell <= surfaces().half_width,
-            file + "has a contact surface up to " + text_in_mm(surfaces().half_width) +
+              text_in_mm(scene.surfaces().half_width) + " mm at both sides where the wheel begins");
+    require(scene.is_between_planes() ||
+              std::max(-scene.patch_extent().begin, scene.patch_extent().end) + scene.mesh.finest_cell <=
+                scene.surfaces().half_width,
+            file + "has a contact surface up to " + text_in_mm(scene.surfaces().half_width) +
               " mm at both sides where the wheel begins, and the patch under the static load is from y = " +
-              from_to_in_mm(patch_extent().begin, patch_extent().end) + ": name more of it 'contact'");
+              from_to_in_mm(scene.patch_extent().begin, scene.patch_extent().end) +
+              ": name more of it 'contact'");
     // At every wheel's start there is a rail under it: not a gap.
-    for (unsigned int wheel = 0; wheel < n_wheels(); ++wheel)
-      for (double x = path_begin(wheel) - a; x <= path_begin(wheel) + a; x += step_along)
-        require(surface.height(x, first_contact().y).has_value(),
+    for (unsigned int wheel = 0; wheel < scene.n_wheels(); ++wheel)
+      for (double x = scene.path_begin(wheel) - a; x <= scene.path_begin(wheel) + a; x += step_along)
+        require(surface.height(x, scene.first_contact().y).has_value(),
                 file + "has no contact surface at x = " + text_in_mm(x) +
-                  " mm, y = " + text_in_mm(first_contact().y) +
+                  " mm, y = " + text_in_mm(scene.first_contact().y) +
                   " mm, where a wheel begins: move 'Motion/Start (mm)' away from the gap");
   }
 } // namespace tread

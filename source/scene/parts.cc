@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <tread/scene/assumptions.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/recorded.h>
+#include <tread/scene/surface_laws.h>
+#include <tread/scene/track_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +18,7 @@ namespace tread
     list.insert(list.end(), scene.n_wheels(), scene.wheel.material.elastic());
     if (scene.track.has_solid_sleepers())
       list.insert(
-        list.end(), scene.support_positions().size(),
+        list.end(), support_positions(scene).size(),
         {scene.track.sleeper_young_modulus, scene.track.sleeper_poisson_ratio, scene.track.sleeper_density});
     for (const auto &other : scene.rail.volume_materials())
       list.push_back(other.material);
@@ -26,7 +31,7 @@ namespace tread
     std::vector<SolidSleeper> list;
     const double              middle = -0.5 * scene.track.rail_distance;
     if (scene.track.has_solid_sleepers())
-      for (unsigned int i = 0; i < scene.support_positions().size(); ++i)
+      for (unsigned int i = 0; i < support_positions(scene).size(); ++i)
         list.push_back({sleeper_body(scene, i), middle, middle + 0.5 * scene.track.sleeper_length,
                         scene.track.sleeper_width});
     return list;
@@ -83,9 +88,9 @@ namespace tread
           if (!scene.is_positioned())
             {
               const double dx = p[0] - axle, dz = p[2] - scene.axle_height();
-              return is_in(wheel ? radius * std::atan2(dx, -dz) : p[0], p[1] - scene.path_y(),
+              return is_in(wheel ? radius * std::atan2(dx, -dz) : p[0], p[1] - path_y(scene),
                            wheel               ? radius - std::hypot(dx, dz)
-                             : scene.rail_mesh() ? scene.depth_in_rail(p)
+                             : scene.rail_mesh() ? depth_in_rail(scene, p)
                                                  : -scene.in_rail_axes(p)[2]);
             }
           const PlacedWheel &placed = scene.placed_wheel();
@@ -148,15 +153,15 @@ namespace tread
   {
     const double patch = hertz(scene, scene.static_load()).semi_axis_x;
     // Of a window what its finest cells feel of the wheel, which its neighbours feel too at the borders.
-    const Scene::Range stretch = scene.windows().at(window);
+    const Scene::Range stretch = windows(scene).at(window);
     return {stretch.begin - patch,
-            (scene.has_window() ? stretch.end : scene.meshed_end()) + patch,
+            (has_window(scene) ? stretch.end : scene.meshed_end()) + patch,
             scene.is_positioned() ? scene.placed_wheel().origin(scene.placed_wheel().main_patch())[1]
                                   : scene.first_contact().y,
             scene.output.strip_half_width,
             patch,
             [&scene](const dealii::Point<3> &p) {
-              return scene.depth_in_rail(p);
+              return depth_in_rail(scene, p);
             }};
   }
 
@@ -165,7 +170,7 @@ namespace tread
   {
     if (body == rail_body)
       return [&scene](const dealii::Point<3> &p) {
-        return scene.depth_in_rail(p);
+        return depth_in_rail(scene, p);
       };
     return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
       const double ahead = p[0] - begin, down = height - p[2];
@@ -182,7 +187,7 @@ namespace tread
     };
     SurfaceDamageParameters p;
     p.interval          = scene.mesh.finest_cell / (looks_in_a_cell * scene.motion.speed);
-    p.wear              = scene.wear_law();
+    p.wear              = wear_law(scene);
     p.slave_effusivity  = effusivity(scene.rail.material);
     p.master_effusivity = effusivity(scene.wheel.material);
     p.master_share =
@@ -213,12 +218,12 @@ namespace tread
     // This far from the middle of a patch, half a semi-axis from its edge, no stress is as large as under it.
     constexpr double              semi_axes = 1.5;
     const reference::HertzEllipse ellipse   = hertz(scene, scene.static_load());
-    const Scene::Range            range     = scene.peak_range();
+    const Scene::Range            range     = peak_range(scene);
     const PeakStressSection      &section   = scene.peak_stress;
     PeakRegion                    region;
     region.x_begin     = range.begin;
     region.x_end       = range.end;
-    region.half_width  = scene.peak_half_width();
+    region.half_width  = peak_half_width(scene);
     region.depth       = section.depth;
     region.finest_cell = scene.mesh.finest_cell;
     region.reach       = semi_axes * ellipse.semi_axis_x;
@@ -273,7 +278,7 @@ namespace tread
     p.gravity                   = scene.vehicle.gravity;
     p.yaw_inertia               = scene.guidance.yaw_inertia;
     p.roll_inertia              = scene.wheelset.both_wheels ? p.yaw_inertia : 0.;
-    if (scene.settles())
+    if (settles(scene))
       {
         const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
         p.settling = {n_wheels * ellipse.stiffness, ellipse.semi_axis_x / scene.motion.speed,

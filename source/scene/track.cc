@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/csv_table.h>
 #include <tread/mesh/mesh_rail.h>
+#include <tread/scene/checks.h>
 #include <tread/scene/scene.h>
+#include <tread/scene/track_parts.h>
 #include <tread/track/track_beam.h>
 
 #include <deal.II/base/utilities.h>
@@ -40,42 +42,104 @@ namespace tread
         },
         "'" + parameter + "': cannot read '" + file + "'");
     }
+
+    TrackBeamParameters track_beam_alike(const Scene &scene)
+    {
+      TrackParameters alike = track_parameters(scene);
+      alike.exceptions.clear();
+      TrackBeamParameters p;
+      p.n_spans         = scene.rail.spans_beyond;
+      p.spacing         = scene.track.sleeper_spacing;
+      p.stiffness_along = scene.track.stiffness_along;
+      p.shear_speed     = scene.rail.material.elastic().shear_wave_speed();
+      p.gravity         = scene.vehicle.gravity;
+      p.layers          = alike.layers(0);
+      return p;
+    }
+
+    void check_beam(const Scene &scene)
+    {
+      require(
+        scene.rail.shape != RailShape::full_section,
+        "'Track/Foundation' beam stands for the rail below the meshed piece: 'Rail/Shape' must be head, "
+        "block, slices or mesh");
+      require(
+        !scene.rail_mesh() || !scene.rail_mesh()->between_planes,
+        "'Track/Foundation' beam needs a rail of some width, and this one lies between planes of symmetry");
+      require(
+        !scene.rail_mesh() ||
+          std::none_of(scene.rail_mesh()->mesh.faces.begin(), scene.rail_mesh()->mesh.faces.end(),
+                       [](const NamedFace &face) { return face.boundary == Boundary::end; }),
+        "'Track/Foundation' beam turns the rail's cross-sections, and faces named 'end' in 'Rail/Mesh file' "
+        "would hold them upright: give them no name");
+      scene.track.check();
+      const BeamUnderRail beam = beam_under_rail(scene);
+      const double        end  = beam.begin + beam.track.n_spans * beam.track.spacing;
+      for (const BeamRow &row : scene.rows_of_beam())
+        require(row.x > beam.begin && row.x < end,
+                "'Track/Beam file': x_mm " + text_in_mm(row.x) + " lies beyond the beam, which goes from " +
+                  text_in_mm(beam.begin) + " to " + text_in_mm(end) + " mm ('Rail/Spans beyond')");
+    }
+
+    void check_overhang(const Scene &scene)
+    {
+      const std::vector<double> positions = support_positions(scene);
+      const double              spacing   = scene.track.sleeper_spacing;
+      require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(spacing) + " leaves " +
+                                       std::to_string(positions.size()) + " supports on the rail of " +
+                                       text_in_mm(scene.rail_end() - scene.rail_begin()) +
+                                       " mm; at least 2 are needed");
+      const auto check_end = [&](const double overhang, const std::string &begins,
+                                 const std::string &support) {
+        require(overhang >= 0.5 * scene.track.pad_length - same_place &&
+                  overhang <= 0.5 * spacing + same_place,
+                "'Track/Sleeper spacing (m)' " + text_of(spacing) + " does not fit the rail from " +
+                  text_in_mm(scene.rail_begin()) + " to " + text_in_mm(scene.rail_end()) + " mm: it " +
+                  begins + " " + text_in_mm(overhang < same_place ? 0. : overhang) + " mm " + support +
+                  "; from half a pad, " + text_in_mm(0.5 * scene.track.pad_length) + ", to half a spacing, " +
+                  text_in_mm(0.5 * spacing) + ", is allowed");
+      };
+      check_end(positions.front() - scene.rail_begin(), "begins", "before its first support");
+      check_end(scene.rail_end() - positions.back(), "ends", "behind its last support");
+    }
   } // namespace
 
 
-  int Scene::first_support() const
+  int first_support(const Scene &scene)
   {
     // The first whose middle lies on the rail.
-    return std::ceil((rail_begin() - track.support_0) / track.sleeper_spacing - 1e-9);
+    return std::ceil((scene.rail_begin() - scene.track.support_0) / scene.track.sleeper_spacing - 1e-9);
   }
 
 
-  std::vector<double> Scene::support_positions() const
+  std::vector<double> support_positions(const Scene &scene)
   {
-    const int           last = std::floor((rail_end() - track.support_0) / track.sleeper_spacing + 1e-9);
+    const int last =
+      std::floor((scene.rail_end() - scene.track.support_0) / scene.track.sleeper_spacing + 1e-9);
     std::vector<double> positions;
-    for (int i = first_support(); i <= last; ++i)
-      positions.push_back(track.support_0 + track.sleeper_spacing * i);
+    for (int i = first_support(scene); i <= last; ++i)
+      positions.push_back(scene.track.support_0 + scene.track.sleeper_spacing * i);
     return positions;
   }
 
 
-  std::vector<int> Scene::recorded_supports() const
+  std::vector<int> recorded_supports(const Scene &scene)
   {
-    if (!track.has_supports())
+    if (!scene.track.has_supports())
       return {};
-    std::vector<int> numbers = output.supports;
+    std::vector<int> numbers = scene.output.supports;
     if (numbers.empty())
       {
-        const int     size = support_positions().size();
+        const int     size = support_positions(scene).size();
         std::set<int> beside_paths;
-        for (unsigned int k = 0; k < n_wheels(); ++k)
+        for (unsigned int k = 0; k < scene.n_wheels(); ++k)
           {
-            const int first = std::max<int>(first_support(), std::floor((path_begin(k) - track.support_0) /
-                                                                        track.sleeper_spacing)),
-                      last =
-                        std::min<int>(first_support() + size - 1,
-                                      std::ceil((meshed_end(k) - track.support_0) / track.sleeper_spacing));
+            const int first = std::max<int>(first_support(scene),
+                                            std::floor((scene.path_begin(k) - scene.track.support_0) /
+                                                       scene.track.sleeper_spacing)),
+                      last  = std::min<int>(first_support(scene) + size - 1,
+                                           std::ceil((scene.meshed_end(k) - scene.track.support_0) /
+                                                      scene.track.sleeper_spacing));
             for (int i = first; i <= last; ++i)
               beside_paths.insert(i);
           }
@@ -177,216 +241,167 @@ namespace tread
   }
 
 
-  TrackParameters Scene::track_parameters() const
+  TrackParameters track_parameters(const Scene &scene)
   {
     TrackParameters p;
-    p.springs      = {track.pad_stiffness, track.ballast_stiffness, track.pad_damping, track.ballast_damping};
-    p.pads_pull    = track.pads_pull;
-    p.pad_length   = track.pad_length;
-    p.pad_width    = track.pad_width;
-    p.pad_middle   = base_middle()[1];
-    p.points_along = track.points_along;
-    p.points_across = track.points_across;
-    p.two_layers    = track.foundation == Foundation::two_layer || track.is_beam();
-    p.sleeper_mass  = track.sleeper_mass;
-    for (const auto &[number, springs] : support_springs)
-      p.exceptions[number - first_support()] = springs;
+    p.springs       = {scene.track.pad_stiffness, scene.track.ballast_stiffness, scene.track.pad_damping,
+                       scene.track.ballast_damping};
+    p.pads_pull     = scene.track.pads_pull;
+    p.pad_length    = scene.track.pad_length;
+    p.pad_width     = scene.track.pad_width;
+    p.pad_middle    = base_middle(scene)[1];
+    p.points_along  = scene.track.points_along;
+    p.points_across = scene.track.points_across;
+    p.two_layers    = scene.track.foundation == Foundation::two_layer || scene.track.is_beam();
+    p.sleeper_mass  = scene.track.sleeper_mass;
+    for (const auto &[number, springs] : scene.springs_of_supports())
+      p.exceptions[number - first_support(scene)] = springs;
     return p;
   }
 
 
-  RailBaseParameters Scene::rail_base_parameters() const
+  RailBaseParameters rail_base_parameters(const Scene &scene)
   {
-    return {track.co_running_mass,
-            {track.vertical_stiffness, track.vertical_damping},
-            {track.lateral_stiffness, track.lateral_damping}};
+    return {scene.track.co_running_mass,
+            {scene.track.vertical_stiffness, scene.track.vertical_damping},
+            {scene.track.lateral_stiffness, scene.track.lateral_damping}};
   }
 
 
-  AbsorbingEnds Scene::absorbing_ends() const
+  AbsorbingEnds absorbing_ends(const Scene &scene)
   {
-    return {rail_begin(), rail_end(), rail.ends == EndKind::absorbing ? rail.absorbing_length : 0.,
-            rail.material.elastic().shear_wave_speed()};
+    return {scene.rail_begin(), scene.rail_end(),
+            scene.rail.ends == EndKind::absorbing ? scene.rail.absorbing_length : 0.,
+            scene.rail.material.elastic().shear_wave_speed()};
   }
 
 
-  BeamUnderRail Scene::beam_under_rail() const
+  BeamUnderRail beam_under_rail(const Scene &scene)
   {
-    const ElasticMaterial &steel   = rail.material.elastic();
+    const ElasticMaterial &steel   = scene.rail.material.elastic();
     const auto             section = [&](const double bending, const double shear, const double mass) {
       return reference::BeamSection{bending, shear, mass, bending * steel.density / steel.young_modulus};
     };
     BeamUnderRail beam;
-    beam.section         = section(track.beam_bending_stiffness, track.beam_shear_stiffness, track.beam_mass);
-    beam.axial_stiffness = track.beam_mass * steel.young_modulus / steel.density;
-    beam.track           = track_beam_alike();
+    beam.section =
+      section(scene.track.beam_bending_stiffness, scene.track.beam_shear_stiffness, scene.track.beam_mass);
+    beam.axial_stiffness = scene.track.beam_mass * steel.young_modulus / steel.density;
+    beam.track           = track_beam_alike(scene);
     beam.track.gravity   = 0.; // it carries nothing but the cells and the wheel
     // So many spans go on beyond both ends of the piece.
-    const MeshFile::Range piece =
-      rail_mesh() ? rail_mesh()->mesh.range(0) : MeshFile::Range{rail_begin(), rail_end()};
-    const int beyond         = rail.spans_beyond - 1,
-              first          = std::floor((piece.begin - track.support_0) / track.sleeper_spacing) - beyond,
-              last           = std::ceil((piece.end - track.support_0) / track.sleeper_spacing) + beyond;
+    const MeshFile::Range piece  = scene.rail_mesh() ? scene.rail_mesh()->mesh.range(0)
+                                                     : MeshFile::Range{scene.rail_begin(), scene.rail_end()};
+    const int             beyond = scene.rail.spans_beyond - 1,
+              first =
+                std::floor((piece.begin - scene.track.support_0) / scene.track.sleeper_spacing) - beyond,
+              last = std::ceil((piece.end - scene.track.support_0) / scene.track.sleeper_spacing) + beyond;
     beam.track.n_spans       = last - first + 1;
-    beam.track.first_support = 0.5 * track.sleeper_spacing;
-    beam.begin               = track.support_0 + (first - 0.5) * track.sleeper_spacing;
+    beam.track.first_support = 0.5 * scene.track.sleeper_spacing;
+    beam.begin               = scene.track.support_0 + (first - 0.5) * scene.track.sleeper_spacing;
     beam.track.loaded        = {piece.begin - beam.begin, piece.end - beam.begin, {}};
-    for (const BeamRow &row : beam_rows)
+    for (const BeamRow &row : scene.rows_of_beam())
       beam.track.stretches.push_back(
         {row.x - beam.begin, section(row.bending_stiffness, row.shear_stiffness, row.mass)});
     return beam;
   }
 
 
-  TrackBeamParameters Scene::track_beam_alike() const
+  std::optional<std::array<TrackBeamParameters, 2>> track_beyond(const Scene &scene)
   {
-    TrackParameters alike = track_parameters();
-    alike.exceptions.clear();
-    TrackBeamParameters p;
-    p.n_spans         = rail.spans_beyond;
-    p.spacing         = track.sleeper_spacing;
-    p.stiffness_along = track.stiffness_along;
-    p.shear_speed     = rail.material.elastic().shear_wave_speed();
-    p.gravity         = vehicle.gravity;
-    p.layers          = alike.layers(0);
-    return p;
-  }
-
-
-  std::optional<std::array<TrackBeamParameters, 2>> Scene::track_beyond() const
-  {
-    if (rail.ends != EndKind::endless)
+    if (scene.rail.ends != EndKind::endless)
       return {};
-    const TrackBeamParameters p      = track_beam_alike();
-    const std::vector<double> places = support_positions();
+    const TrackBeamParameters p      = track_beam_alike(scene);
+    const std::vector<double> places = support_positions(scene);
     TrackBeamParameters       before = p, behind = p;
-    before.first_support = track.sleeper_spacing - (places.front() - rail_begin());
-    behind.first_support = track.sleeper_spacing - (rail_end() - places.back());
+    before.first_support = scene.track.sleeper_spacing - (places.front() - scene.rail_begin());
+    behind.first_support = scene.track.sleeper_spacing - (scene.rail_end() - places.back());
     return std::array{before, behind};
   }
 
 
-  dealii::Point<3> Scene::base_middle() const
+  dealii::Point<3> base_middle(const Scene &scene)
   {
-    return dealii::Point<3>(0., std::sin(rail.angle()) * rail.height(),
-                            -std::cos(rail.angle()) * rail.height());
+    return dealii::Point<3>(0., std::sin(scene.rail.angle()) * scene.rail.height(),
+                            -std::cos(scene.rail.angle()) * scene.rail.height());
   }
 
 
-  void Scene::check_beam() const
+  void check_track(const Scene &scene)
   {
-    require(rail.shape != RailShape::full_section,
-            "'Track/Foundation' beam stands for the rail below the meshed piece: 'Rail/Shape' must be head, "
-            "block, slices or mesh");
-    require(
-      !rail_mesh() || !rail_mesh()->between_planes,
-      "'Track/Foundation' beam needs a rail of some width, and this one lies between planes of symmetry");
-    require(
-      !rail_mesh() || std::none_of(rail_mesh()->mesh.faces.begin(), rail_mesh()->mesh.faces.end(),
-                                   [](const NamedFace &face) { return face.boundary == Boundary::end; }),
-      "'Track/Foundation' beam turns the rail's cross-sections, and faces named 'end' in 'Rail/Mesh file' "
-      "would hold them upright: give them no name");
-    track.check();
-    const BeamUnderRail beam = beam_under_rail();
-    const double        end  = beam.begin + beam.track.n_spans * beam.track.spacing;
-    for (const BeamRow &row : beam_rows)
-      require(row.x > beam.begin && row.x < end,
-              "'Track/Beam file': x_mm " + text_in_mm(row.x) + " lies beyond the beam, which goes from " +
-                text_in_mm(beam.begin) + " to " + text_in_mm(end) + " mm ('Rail/Spans beyond')");
-  }
-
-
-  void Scene::check_track() const
-  {
-    require(track.has_supports() || rail.ends == EndKind::symmetric,
-            "'Rail/Ends' " + name_of(rail.ends) +
-              (track.is_beam()
+    require(scene.track.has_supports() || scene.rail.ends == EndKind::symmetric,
+            "'Rail/Ends' " + name_of(scene.rail.ends) +
+              (scene.track.is_beam()
                  ? " is for rails on supports: a beam is endless by itself"
                  : " needs a rail on supports: 'Track/Foundation' must be one-layer or two-layer"));
-    require(!track.has_moving_base() || (n_wheels() == 1 && !wheelset.both_wheels),
-            "'Track/Foundation' " + name_of(track.foundation) +
+    require(!scene.track.has_moving_base() || (scene.n_wheels() == 1 && !scene.wheelset.both_wheels),
+            "'Track/Foundation' " + name_of(scene.track.foundation) +
               " is for one wheel: 'Further wheels' and "
               "'Wheelset/Both wheels' must be off");
-    if (track.is_beam())
-      check_beam();
-    if (!track.has_supports())
+    if (scene.track.is_beam())
+      check_beam(scene);
+    if (!scene.track.has_supports())
       return;
-    require(!rail.is_meshed(),
-            "'Track/Foundation' " + name_of(track.foundation) +
+    require(!scene.rail.is_meshed(),
+            "'Track/Foundation' " + name_of(scene.track.foundation) +
               " needs a rail with a foot of the program's own: with 'Rail/Shape' mesh it must be "
               "rigid, co-running or beam");
-    require(rail.shape != RailShape::head, "'Track/Foundation' " + name_of(track.foundation) +
-                                             " needs a rail with a foot: 'Rail/Shape' cannot be head");
-    track.check();
-    const RailProfile profile = rail.standard_profile();
-    const double      base =
-      rail.is_block() ? rail.block_width : 2. * profile.outline_point(profile.corners().foot_edge)[0];
-    require(track.pad_width <= base, "'Track/Pad width (mm)' " + text_in_mm(track.pad_width) +
-                                       " exceeds the flat width of the rail's base, " + text_in_mm(base));
+    require(scene.rail.shape != RailShape::head, "'Track/Foundation' " + name_of(scene.track.foundation) +
+                                                   " needs a rail with a foot: 'Rail/Shape' cannot be head");
+    scene.track.check();
+    const RailProfile profile = scene.rail.standard_profile();
+    const double      base    = scene.rail.is_block() ? scene.rail.block_width
+                                                      : 2. * profile.outline_point(profile.corners().foot_edge)[0];
+    require(scene.track.pad_width <= base, "'Track/Pad width (mm)' " + text_in_mm(scene.track.pad_width) +
+                                             " exceeds the flat width of the rail's base, " +
+                                             text_in_mm(base));
     // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
     // its foot.
-    const bool stands_upright = rail.angle() == 0. && rail.measured_head.empty() &&
-                                std::abs(first_contact().y) < 1e-6 &&
-                                (!shapes->defect || shapes->defect->y_middle == 0.) &&
-                                motion.lateral_creepage == 0. && motion.spin == 0.;
+    const bool stands_upright = scene.rail.angle() == 0. && scene.rail.measured_head.empty() &&
+                                std::abs(scene.first_contact().y) < 1e-6 &&
+                                (!scene.made_defect() || scene.made_defect()->y_middle == 0.) &&
+                                scene.motion.lateral_creepage == 0. && scene.motion.spin == 0.;
     require(
-      track.points_across > 1 || (stands_upright && lateral_radius() > rail.height()),
+      scene.track.points_across > 1 || (stands_upright && scene.lateral_radius() > scene.rail.height()),
       "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
       "('Rail/Inclination' none), wheel and defect meet it on y = 0, 'Motion/Lateral creepage' and 'Spin "
       "(1 per m)' are 0, and its crown radius exceeds its height, " +
-        text_in_mm(rail.height()) + " mm");
-    check_overhang();
-    if (const AbsorbingEnds ends = absorbing_ends(); ends.length > 0.)
+        text_in_mm(scene.rail.height()) + " mm");
+    check_overhang(scene);
+    if (const AbsorbingEnds ends = absorbing_ends(scene); ends.length > 0.)
       {
         const double clear =
-          std::min(path_begin(last_wheel()) - ends.begin, ends.end - meshed_end()) - track.sleeper_spacing;
+          std::min(scene.path_begin(scene.last_wheel()) - ends.begin, ends.end - scene.meshed_end()) -
+          scene.track.sleeper_spacing;
         require(ends.length <= clear + same_place,
                 "'Rail/Absorbing length (m)' " + text_of(ends.length) +
                   " leaves less than a sleeper spacing between the absorbing ends and the wheel's path; at "
                   "most " +
                   text_of(std::max(0., clear)) + " fits this rail");
       }
-    if (rail.ends == EndKind::endless)
+    if (scene.rail.ends == EndKind::endless)
       {
-        require(track.pads_pull,
+        require(scene.track.pads_pull,
                 "'Rail/Ends' endless needs 'Track/Pads pull' true: the beam beyond the ends is "
                 "linear");
-        require(general.density_scale == 1., "'Rail/Ends' endless needs 'Scene/Density scale' 1: waves that "
-                                             "leave the cells would find another rail");
-        const double clear = std::min(path_begin(last_wheel()) - rail_begin(), rail_end() - meshed_end());
-        require(clear >= 0.5 * track.sleeper_spacing - same_place,
+        require(scene.general.density_scale == 1.,
+                "'Rail/Ends' endless needs 'Scene/Density scale' 1: waves that "
+                "leave the cells would find another rail");
+        const double clear = std::min(scene.path_begin(scene.last_wheel()) - scene.rail_begin(),
+                                      scene.rail_end() - scene.meshed_end());
+        require(clear >= 0.5 * scene.track.sleeper_spacing - same_place,
                 "'Rail/Ends' endless: the wheel's path comes within " + text_in_mm(std::max(0., clear)) +
                   " mm of an end of the rail; at least half a sleeper spacing, " +
-                  text_in_mm(0.5 * track.sleeper_spacing) + " mm, is needed");
+                  text_in_mm(0.5 * scene.track.sleeper_spacing) + " mm, is needed");
       }
-    const int first = first_support(), last = first + static_cast<int>(support_positions().size()) - 1;
-    for (const auto &[support, springs] : support_springs)
+    const int first = first_support(scene),
+              last  = first + static_cast<int>(support_positions(scene).size()) - 1;
+    for (const auto &[support, springs] : scene.springs_of_supports())
       require(support >= first && support <= last, "'Track/Support file' has support " +
                                                      std::to_string(support) + "; the rail has supports " +
                                                      std::to_string(first) + " to " + std::to_string(last));
-    for (const int support : recorded_supports())
+    for (const int support : recorded_supports(scene))
       require(support >= first && support <= last, "'Output/Supports' has " + std::to_string(support) +
                                                      "; the rail has supports " + std::to_string(first) +
                                                      " to " + std::to_string(last));
-  }
-
-
-  void Scene::check_overhang() const
-  {
-    const std::vector<double> positions = support_positions();
-    const double              spacing   = track.sleeper_spacing;
-    require(positions.size() >= 2, "'Track/Sleeper spacing (m)' " + text_of(spacing) + " leaves " +
-                                     std::to_string(positions.size()) + " supports on the rail of " +
-                                     text_in_mm(rail_end() - rail_begin()) + " mm; at least 2 are needed");
-    const auto check_end = [&](const double overhang, const std::string &begins, const std::string &support) {
-      require(overhang >= 0.5 * track.pad_length - same_place && overhang <= 0.5 * spacing + same_place,
-              "'Track/Sleeper spacing (m)' " + text_of(spacing) + " does not fit the rail from " +
-                text_in_mm(rail_begin()) + " to " + text_in_mm(rail_end()) + " mm: it " + begins + " " +
-                text_in_mm(overhang < same_place ? 0. : overhang) + " mm " + support + "; from half a pad, " +
-                text_in_mm(0.5 * track.pad_length) + ", to half a spacing, " + text_in_mm(0.5 * spacing) +
-                ", is allowed");
-    };
-    check_end(positions.front() - rail_begin(), "begins", "before its first support");
-    check_end(rail_end() - positions.back(), "ends", "behind its last support");
   }
 } // namespace tread

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Parameters that a scene sets and that another one of its parameters leaves without effect.
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/scene.h>
+#include <tread/scene/surface_laws.h>
 
 #include <algorithm>
 
@@ -47,6 +49,41 @@ namespace tread
                "Hardening",
                yields && steel.hardening == Hardening::armstrong_frederick,
                "Armstrong-Frederick, with a yield stress"}};
+    }
+
+    std::vector<std::string> tables_beside_the_path(const Scene &scene)
+    {
+      std::vector<std::string> lines;
+      if (!scene.shapes)
+        return lines;
+      // More than any patch is long.
+      constexpr double room = 0.05, largest_pressure = 5e9, least_pressure = 1e7; // m, Pa
+      const double     from = scene.path_begin(scene.last_wheel()) - room, to = scene.meshed_end() + room;
+      const auto       beside = [&](const double begin, const double end) {
+        return end < from || begin > to;
+      };
+      if (const auto &places = scene.contact.friction_places;
+          !places.empty() && beside(places.front(), places.back()))
+        lines.push_back("'Contact/Friction places (mm)' all lie beside the path, from " +
+                        text_in_mm(scene.path_begin(scene.last_wheel())) + " to " +
+                        text_in_mm(scene.meshed_end()) + " mm: the friction factor is " +
+                        text_of(scene.contact.friction_factor(scene.path_begin())) + " on all of it");
+      if (const auto &places = scene.contact.across_places; !places.empty() && !scene.is_positioned())
+        if (const Scene::PatchExtent &patch = scene.patch_extent();
+            places.front() > patch.end || places.back() < patch.begin)
+          lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
+                          text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +
+                          " mm: the factor is the same on all of it");
+      if (const auto &pressures = scene.contact.friction_pressures;
+          !pressures.empty() && (pressures.front() > largest_pressure || pressures.back() < least_pressure))
+        lines.push_back("'Contact/Friction pressures (MPa)', from " + text_of(1e-6 * pressures.front()) +
+                        " to " + text_of(1e-6 * pressures.back()) +
+                        ", are those of no wheel on a rail: the factor is the same at all of its pressures");
+      for (const MaterialSection::Zone &zone : scene.rail.material.zones("Rail"))
+        if (beside(zone.begin, zone.end))
+          lines.push_back("'Rail/Plastic zones' from " + text_in_mm(zone.begin) + " to " +
+                          text_in_mm(zone.end) + " mm has no effect: it lies beside the path");
+      return lines;
     }
   } // namespace
 
@@ -107,7 +144,7 @@ namespace tread
       {"Mesh",
        {"Window length (mm)", "Window margin (mm)"},
        "Window",
-       has_window(),
+       has_window(*this),
        "true, or automatic on a way that is long enough"},
       {"Ratcheting",
        {"Rolled between jumps", "Irregularity (%)", "Change in a jump (%)", "Strain of a jump (%)",
@@ -156,12 +193,12 @@ namespace tread
        {"Kinetic friction coefficient", "Falling slip speed (m per s)", "Friction memory (mm)",
         "Least speed of memory (m per s)"},
        "Friction law",
-       !friction_law()->is_constant(),
+       !friction_law(*this)->is_constant(),
        "one that falls"},
       {"Contact",
        {"Least speed of memory (m per s)"},
        "Friction memory (mm)",
-       friction_law()->memory().distance > 0.,
+       friction_law(*this)->memory().distance > 0.,
        "above 0"},
       {"Vehicle", {"Sprung mass (kg)"}, "Wheel load (kN)", !vehicle.wheel_load, "masses"},
       {"Vehicle", {"Sprung mass (kg)"}, "Axle load (t)", !vehicle.axle_load, "none"},
@@ -279,44 +316,8 @@ namespace tread
                              (elsewhere ? "" : group.section + "/") + group.main + "' " + group.needed);
             break;
           }
-    for (const std::string &line : tables_beside_the_path())
+    for (const std::string &line : tables_beside_the_path(*this))
       unused.push_back(line);
     return unused;
-  }
-
-
-  std::vector<std::string> Scene::tables_beside_the_path() const
-  {
-    std::vector<std::string> lines;
-    if (!shapes)
-      return lines;
-    // More than any patch is long.
-    constexpr double room = 0.05, largest_pressure = 5e9, least_pressure = 1e7; // m, Pa
-    const double     from = path_begin(last_wheel()) - room, to = meshed_end() + room;
-    const auto       beside = [&](const double begin, const double end) {
-      return end < from || begin > to;
-    };
-    if (const auto &places = contact.friction_places;
-        !places.empty() && beside(places.front(), places.back()))
-      lines.push_back("'Contact/Friction places (mm)' all lie beside the path, from " +
-                      text_in_mm(path_begin(last_wheel())) + " to " + text_in_mm(meshed_end()) +
-                      " mm: the friction factor is " + text_of(contact.friction_factor(path_begin())) +
-                      " on all of it");
-    if (const auto &places = contact.across_places; !places.empty() && !is_positioned())
-      if (const PatchExtent &patch = patch_extent();
-          places.front() > patch.end || places.back() < patch.begin)
-        lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
-                        text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +
-                        " mm: the factor is the same on all of it");
-    if (const auto &pressures = contact.friction_pressures;
-        !pressures.empty() && (pressures.front() > largest_pressure || pressures.back() < least_pressure))
-      lines.push_back("'Contact/Friction pressures (MPa)', from " + text_of(1e-6 * pressures.front()) +
-                      " to " + text_of(1e-6 * pressures.back()) +
-                      ", are those of no wheel on a rail: the factor is the same at all of its pressures");
-    for (const MaterialSection::Zone &zone : rail.material.zones("Rail"))
-      if (beside(zone.begin, zone.end))
-        lines.push_back("'Rail/Plastic zones' from " + text_in_mm(zone.begin) + " to " +
-                        text_in_mm(zone.end) + " mm has no effect: it lies beside the path");
-    return lines;
   }
 } // namespace tread

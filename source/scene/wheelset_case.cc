@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/geometry/profile_names.h>
 #include <tread/geometry/rail_slices.h>
+#include <tread/scene/checks.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/recorded.h>
+#include <tread/scene/scene.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/scene/wheelset_case.h>
 
 #include <cmath>
@@ -9,6 +13,97 @@
 
 namespace tread
 {
+  namespace
+  {
+    void check_guidance(const Scene &scene)
+    {
+      if (!scene.motion_of_wheelset())
+        return;
+      const double cell     = 2. * scene.mesh.finest_cell; // half a one and the last group of steps
+      const double duration = (scene.motion.meshed_distance() + cell) / scene.motion.speed;
+      require(scene.motion_of_wheelset()->end() >= duration - cell / scene.motion.speed,
+              "'Guidance/File' ends at " + text_of(scene.motion_of_wheelset()->end()) + " s; the run takes " +
+                text_of(scene.motion.meshed_distance() / scene.motion.speed) + " s");
+      constexpr unsigned int n_instants = 200;
+      constexpr double       largest    = 0.2; // as of the creepages of 'Motion'
+      double                 before     = scene.across(0.).y;
+      for (unsigned int i = 0; i <= n_instants; ++i)
+        {
+          const Across now      = scene.across(duration * i / n_instants);
+          const double creepage = (now.y - before) / (duration / n_instants * scene.motion.speed);
+          require(std::abs(creepage) <= largest, "'Guidance/File' moves the wheelset sideways at " +
+                                                   text_of(std::abs(creepage)) + " of its speed, " +
+                                                   text_of(duration * i / n_instants) +
+                                                   " s after the start; at most " + text_of(largest));
+          require(!now.angular_velocity || *now.angular_velocity >= 0.,
+                  "'Guidance/File' turns the wheel backwards at " +
+                    text_of(now.angular_velocity.value_or(0.)) + " rad/s, " +
+                    text_of(duration * i / n_instants) + " s after the start");
+          before               = now.y;
+          WheelsetSection then = scene.wheelset;
+          then.yaw             = now.yaw;
+          then.roll            = now.roll;
+          try
+            {
+              then.check();
+            }
+          catch (const InputError &error)
+            {
+              throw InputError("'Guidance/File', " + text_of(duration * i / n_instants) +
+                               " s after the start: " + error.what());
+            }
+        }
+    }
+
+    void check_slices(const Scene &scene)
+    {
+      if (!scene.rail.is_sliced())
+        return;
+      require(
+        !scene.wheelset.both_wheels && !scene.contact.varies_across(),
+        "'Rail/Slices' are one rail, of which only the surface is known: 'Wheelset/Both wheels' must be "
+        "false, 'Contact/Friction across (mm)' and 'Friction inclinations (deg)' empty");
+      require(scene.wheel.material.yield_stress == 0. && scene.wheel.material.plastic_zones.empty(),
+              "'Wheel/Yield stress (MPa)' must be 0 and 'Plastic zones' empty over 'Rail/Shape' slices: the "
+              "wheel would "
+              "yield only where it touches at the start");
+      const Surface::Extent known = scene.wheel_on_rail().rail_surface().extent();
+      const double          begin = scene.rail.slices_place + scene.rail_begin(),
+                   end            = scene.rail.slices_place + scene.rail_end();
+      require(
+        known.includes(begin) && known.includes(end),
+        "'Rail/Slices' reach from " + text_in_mm(known.along_begin) + " to " + text_in_mm(known.along_end) +
+          " mm, the rail of the scene from " + text_in_mm(begin) + " to " + text_in_mm(end) +
+          " mm along them: change 'Rail/Slices place (mm)', 'Margin (mm)' or 'Motion/Rolled distance (mm)'");
+    }
+
+    void check_other_wheel(const Scene &scene)
+    {
+      // The roll follows from the contact of both, or the other wheel's rail is not known.
+      if (scene.wheelset.both_wheels || scene.rail.is_sliced())
+        return;
+      // A flange that climbs, or a roll that was not given, is some millimetres.
+      constexpr double       deepest  = 15e-3; // m
+      const WheelOnRail      surfaces = scene.wheel_on_rail();
+      const WheelsetPosition position = scene.wheelset.position();
+      double                 overlap  = 0.;
+      try
+        {
+          // At the height at which the own wheel touches.
+          overlap = surfaces.nearest(position).gap - surfaces.nearest(position.mirrored()).gap;
+        }
+      catch (const std::runtime_error &)
+        {
+          return; // the own wheel meets no rail, which is said later; or the other one has none under it
+        }
+      require(overlap <= deepest, "'Wheelset/Lateral shift (mm)' " + text_in_mm(position.shift) +
+                                    " puts the other wheel of the wheelset " + text_in_mm(overlap) +
+                                    " mm deep into its rail: no wheelset stands there; at most " +
+                                    text_in_mm(deepest) + " mm, as 'Wheelset/Roll (mrad)' may be missing");
+    }
+  } // namespace
+
+
   WheelOnRail Scene::wheel_on_rail() const
   {
     const auto wheel_profile = [&] {
@@ -80,191 +175,107 @@ namespace tread
   }
 
 
-  void Scene::check_guidance() const
+  void check_wheelset(const Scene &scene)
   {
-    if (!wheelset_motion)
-      return;
-    const double cell     = 2. * mesh.finest_cell; // half a one and the last group of steps
-    const double duration = (motion.meshed_distance() + cell) / motion.speed;
-    require(wheelset_motion->end() >= duration - cell / motion.speed,
-            "'Guidance/File' ends at " + text_of(wheelset_motion->end()) + " s; the run takes " +
-              text_of(motion.meshed_distance() / motion.speed) + " s");
-    constexpr unsigned int n_instants = 200;
-    constexpr double       largest    = 0.2; // as of the creepages of 'Motion'
-    double                 before     = across(0.).y;
-    for (unsigned int i = 0; i <= n_instants; ++i)
-      {
-        const Across now      = across(duration * i / n_instants);
-        const double creepage = (now.y - before) / (duration / n_instants * motion.speed);
-        require(std::abs(creepage) <= largest, "'Guidance/File' moves the wheelset sideways at " +
-                                                 text_of(std::abs(creepage)) + " of its speed, " +
-                                                 text_of(duration * i / n_instants) +
-                                                 " s after the start; at most " + text_of(largest));
-        require(!now.angular_velocity || *now.angular_velocity >= 0.,
-                "'Guidance/File' turns the wheel backwards at " + text_of(now.angular_velocity.value_or(0.)) +
-                  " rad/s, " + text_of(duration * i / n_instants) + " s after the start");
-        before               = now.y;
-        WheelsetSection then = wheelset;
-        then.yaw             = now.yaw;
-        then.roll            = now.roll;
-        try
-          {
-            then.check();
-          }
-        catch (const InputError &error)
-          {
-            throw InputError("'Guidance/File', " + text_of(duration * i / n_instants) +
-                             " s after the start: " + error.what());
-          }
-      }
-  }
-
-
-  void Scene::check_wheelset() const
-  {
-    check_guidance();
-    motion.check();
-    rail.check();
-    wheel.check();
-    require(static_load() > 0., "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
+    check_guidance(scene);
+    scene.motion.check();
+    scene.rail.check();
+    scene.wheel.check();
+    require(scene.static_load() > 0.,
+            "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     require(
-      wheel.lateral_position == 0.,
+      scene.wheel.lateral_position == 0.,
       "'Wheel/Lateral position (mm)' is for an upright wheel; in a track 'Wheelset/Lateral shift (mm)' takes "
       "its place");
-    require(wheel.deviation.empty(),
+    require(scene.wheel.deviation.empty(),
             "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread positions solves wheels "
             "that are not round, and an upright wheel may have one");
-    require(defect.shape == "none", "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
-    require(further_wheels.distances.empty(),
+    require(scene.defect.shape == "none",
+            "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
+    require(scene.further_wheels.distances.empty(),
             "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position");
-    require(motion.angular_velocity || motion.creepage,
+    require(scene.motion.angular_velocity || scene.motion.creepage,
             "a wheelset in a given position needs 'Motion/Angular velocity (rad per s)', or a number for "
             "'Motion/Creepage'");
-    require(!(motion.angular_velocity && motion.creepage),
+    require(!(scene.motion.angular_velocity && scene.motion.creepage),
             "'Motion/Angular velocity (rad per s)' and a number for 'Motion/Creepage' exclude each other");
-    require(motion.spin == 0.,
+    require(scene.motion.spin == 0.,
             "'Motion/Spin (1 per m)' must be 0 where 'Wheelset' has a position, from which it follows");
-    contact.check();
-    check_friction_by_temperature();
-    check_slices();
-    check_other_wheel();
-    const WheelRolling rolling = wheel_rolling(*this, path_begin());
+    scene.contact.check();
+    check_friction_by_temperature(scene);
+    check_slices(scene);
+    check_other_wheel(scene);
+    const WheelRolling rolling = wheel_rolling(scene, scene.path_begin());
     require(
-      (rolling.is_coulomb() && !contact.varies_across()) ||
+      (rolling.is_coulomb() && !scene.contact.varies_across()) ||
         reference::combine(rolling.wheel, rolling.rail).coupling == 0.,
       "'Contact/Friction law' must be Coulomb and 'Friction pressures (MPa)', 'Friction temperatures (C)', "
       "'Friction across (mm)' and 'Friction inclinations (deg)' empty where 'Wheelset' has a position and "
       "wheel and rail are of "
       "unlike materials: half-space theory has no answer");
     require(
-      !rolling.slip_friction || (!rolling.pressure_factor && !contact.varies_across()),
+      !rolling.slip_friction || (!rolling.pressure_factor && !scene.contact.varies_across()),
       "'Contact/Friction law' must be Coulomb with 'Friction pressures (MPa)', 'Friction across (mm)' or "
       "'Friction inclinations (deg)' where 'Wheelset' has a position: half-space theory has no answer for "
       "both");
     require(
-      !contact.varies_across() || !wheelset.both_wheels,
+      !scene.contact.varies_across() || !scene.wheelset.both_wheels,
       "'Contact/Friction across (mm)' and 'Friction inclinations (deg)' are for one rail: 'Wheelset/Both "
       "wheels' must be false");
   }
 
 
-  void Scene::check_slices() const
+  void check_placed_mesh(const Scene &scene)
   {
-    if (!rail.is_sliced())
-      return;
-    require(!wheelset.both_wheels && !contact.varies_across(),
-            "'Rail/Slices' are one rail, of which only the surface is known: 'Wheelset/Both wheels' must be "
-            "false, 'Contact/Friction across (mm)' and 'Friction inclinations (deg)' empty");
-    require(wheel.material.yield_stress == 0. && wheel.material.plastic_zones.empty(),
-            "'Wheel/Yield stress (MPa)' must be 0 and 'Plastic zones' empty over 'Rail/Shape' slices: the "
-            "wheel would "
-            "yield only where it touches at the start");
-    const Surface::Extent known = wheel_on_rail().rail_surface().extent();
-    const double          begin = rail.slices_place + rail_begin(), end = rail.slices_place + rail_end();
-    require(
-      known.includes(begin) && known.includes(end),
-      "'Rail/Slices' reach from " + text_in_mm(known.along_begin) + " to " + text_in_mm(known.along_end) +
-        " mm, the rail of the scene from " + text_in_mm(begin) + " to " + text_in_mm(end) +
-        " mm along them: change 'Rail/Slices place (mm)', 'Margin (mm)' or 'Motion/Rolled distance (mm)'");
-  }
-
-
-  void Scene::check_other_wheel() const
-  {
-    // The roll follows from the contact of both, or the other wheel's rail is not known.
-    if (wheelset.both_wheels || rail.is_sliced())
-      return;
-    // A flange that climbs, or a roll that was not given, is some millimetres.
-    constexpr double       deepest  = 15e-3; // m
-    const WheelOnRail      surfaces = wheel_on_rail();
-    const WheelsetPosition position = wheelset.position();
-    double                 overlap  = 0.;
-    try
-      {
-        // At the height at which the own wheel touches.
-        overlap = surfaces.nearest(position).gap - surfaces.nearest(position.mirrored()).gap;
-      }
-    catch (const std::runtime_error &)
-      {
-        return; // the own wheel meets no rail, which is said later; or the other one has none under it
-      }
-    require(overlap <= deepest, "'Wheelset/Lateral shift (mm)' " + text_in_mm(position.shift) +
-                                  " puts the other wheel of the wheelset " + text_in_mm(overlap) +
-                                  " mm deep into its rail: no wheelset stands there; at most " +
-                                  text_in_mm(deepest) + " mm, as 'Wheelset/Roll (mrad)' may be missing");
-  }
-
-
-  void Scene::check_placed_mesh() const
-  {
-    general.check();
-    check_motion();
-    mesh.check();
-    solid.check();
-    further_wheels.check(2. * wheel.radius);
+    scene.general.check();
+    check_motion(scene);
+    scene.mesh.check();
+    scene.solid.check();
+    scene.further_wheels.check(2. * scene.wheel.radius);
     const auto without = [](const bool none, const std::string &what) {
       require(none, what + " where 'Wheelset' has a position and the wheel is meshed");
     };
-    require(guidance.yaw_inertia > 0. || !wheelset.both_wheels,
+    require(scene.guidance.yaw_inertia > 0. || !scene.wheelset.both_wheels,
             "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
-    without(!track.has_supports(), "'Track/Foundation' must be rigid, co-running or beam");
-    check_track();
-    without(!wheel.is_full(), "'Wheel/Shape' must be sector");
-    require(motion.drive != Drive::torque || !wheelset.has_flexible_axle(),
+    without(!scene.track.has_supports(), "'Track/Foundation' must be rigid, co-running or beam");
+    check_track(scene);
+    without(!scene.wheel.is_full(), "'Wheel/Shape' must be sector");
+    require(scene.motion.drive != Drive::torque || !scene.wheelset.has_flexible_axle(),
             "'Motion/Drive' cannot be torque on a flexible axle ('Wheelset/Axle torsional stiffness (MN m "
             "per rad)', "
             "'Axle bending stiffness (MN m2)'): where it acts on it is not known");
-    check_peak_stress();
-    recorded_cells();
-    without(mesh.fine_from == mesh.fine_to, "'Mesh/Fine from (mm)' and 'Fine to (mm)' must be equal");
+    check_peak_stress(scene);
+    recorded_cells(scene);
+    without(scene.mesh.fine_from == scene.mesh.fine_to,
+            "'Mesh/Fine from (mm)' and 'Fine to (mm)' must be equal");
     const auto require_margin = [&](const WheelPatch &patch) {
       const reference::PlanarResult &s = patch.solution;
       const double least               = 1.5 * (s.x_end - s.x_begin) + std::abs(patch.region.reference[0]);
       require(
-        std::min(rail.margin, wheel.sector_margin) >= least,
-        "'Rail/Margin (mm)' " + text_in_mm(rail.margin) + " or 'Wheel/Sector margin (mm)' " +
-          text_in_mm(wheel.sector_margin) +
+        std::min(scene.rail.margin, scene.wheel.sector_margin) >= least,
+        "'Rail/Margin (mm)' " + text_in_mm(scene.rail.margin) + " or 'Wheel/Sector margin (mm)' " +
+          text_in_mm(scene.wheel.sector_margin) +
           " lets the patch leave what is meshed; both at least three half lengths of the patch and what "
           "it lies ahead of the axle, " +
           text_in_mm(least) + " mm");
     };
-    for (const WheelPatch &patch : placed_wheel().patches())
+    for (const WheelPatch &patch : scene.placed_wheel().patches())
       {
         const reference::PlanarResult &s = patch.solution;
         const double                   a = 0.5 * (s.x_end - s.x_begin), b = 0.5 * (s.y_end - s.y_begin);
         const double                   largest_finest = 0.45 * std::min(a, b);
-        require(mesh.finest_cell <= largest_finest,
-                "'Mesh/Finest cell (mm)' " + text_in_mm(mesh.finest_cell) + " is too large for a patch " +
-                  text_in_mm(2. * a) + " mm long and " + text_in_mm(2. * b) + " mm wide; at most " +
-                  text_in_mm(largest_finest));
+        require(scene.mesh.finest_cell <= largest_finest,
+                "'Mesh/Finest cell (mm)' " + text_in_mm(scene.mesh.finest_cell) +
+                  " is too large for a patch " + text_in_mm(2. * a) + " mm long and " + text_in_mm(2. * b) +
+                  " mm wide; at most " + text_in_mm(largest_finest));
         require_margin(patch);
       }
-    for (const TouchedPiece &piece : placed_wheel().way().pieces)
+    for (const TouchedPiece &piece : scene.placed_wheel().way().pieces)
       for (const TouchedPiece::Touch &touch : piece.touches)
         require_margin(touch.patch);
-    check_sector();
-    check_plasticity();
-    check_numerics();
+    check_sector(scene);
+    check_plasticity(scene);
+    check_numerics(scene);
   }
 
 

@@ -2,6 +2,7 @@
 #include <tread/base/format.h>
 #include <tread/output/summary_keys.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 
@@ -194,7 +195,7 @@ namespace tread
     {
       const reference::PlanarResult &s = patch.solution;
       return {s.normal_force, std::hypot(s.longitudinal_force, s.lateral_force), s.area,
-              s.max_pressure, s.frictional_power / scene.motion.speed,           scene.shear_strength()};
+              s.max_pressure, s.frictional_power / scene.motion.speed,           shear_strength(scene)};
     }
   } // namespace
 
@@ -236,7 +237,7 @@ namespace tread
                                          const double                   rail_y,
                                          const Scene                   &scene)
   {
-    const DamageIndices    indices = scene.indices_of_damage();
+    const DamageIndices    indices = indices_of_damage(scene);
     nlohmann::ordered_json list    = nlohmann::ordered_json::array();
     for (const WheelPatch &patch : patches)
       {

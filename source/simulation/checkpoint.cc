@@ -2,6 +2,7 @@
 #include <tread/base/archive.h>
 #include <tread/base/file_text.h>
 #include <tread/base/format.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/simulation.h>
@@ -281,7 +282,7 @@ namespace tread
     std::istringstream text(content.window);
     require_same_parameters(content.parameters);
     text >> window.number >> window.tread;
-    require(bool(text) && window.number < scene.windows().size(), damaged());
+    require(bool(text) && window.number < windows(scene).size(), damaged());
     return window;
   }
 

@@ -2,6 +2,7 @@
 // What a run answers, beside half-space theory.
 #include <tread/base/format.h>
 #include <tread/scene/half_space_case.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/comparison.h>
 
@@ -37,7 +38,7 @@ namespace tread
                                  scene.contact.friction_factor(scene.path_end()) * patch.normal_force;
       // Where friction falls with slip, a force belongs to several creepages; where it depends on the
       // pressure, forces do not tell how near to sliding a patch is.
-      const bool by_creepage = all_slips || !scene.friction_law()->is_constant() ||
+      const bool by_creepage = all_slips || !friction_law(scene)->is_constant() ||
                                !scene.contact.friction_pressures.empty() ||
                                !scene.contact.temperatures.empty() || scene.contact.varies_across();
       reference::RollingCase c = half_space_case(scene, normal, by_creepage ? 0. : traction / normal);
@@ -81,7 +82,7 @@ namespace tread
       if (!(answer.force[2] > 0.))
         return "";
       if ((!scene.contact.friction_pressures.empty() || scene.contact.varies_across()) &&
-          !scene.friction_law()->is_constant())
+          !friction_law(scene)->is_constant())
         return "no comparison with steady rolling: half-space theory has no answer for factors on the "
                "friction "
                "coefficient by pressure or across the rail with 'Contact/Friction law' " +

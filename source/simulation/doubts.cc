@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/scene/doubts.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/simulation/doubts.h>
 
 #include <deal.II/base/numbers.h>
@@ -36,7 +39,7 @@ namespace tread
     // (Westergaard 1939; Johnson 1985, section 13.2). A kink of curvature between the arcs of a standard head
     // makes a few per cent of Hertz's.
     constexpr double large  = 0.1;
-    const double     detail = scene.detail_within_cells(), load = scene.static_load();
+    const double     detail = detail_within_cells(scene), load = scene.static_load();
     if (!(detail > 0. && load > 0.))
       return "";
     const reference::RollingCase touching = half_space_case(scene, load, 0.);
@@ -57,7 +60,7 @@ namespace tread
   std::vector<std::string> doubts_at_start(const Model &model)
   {
     std::vector<std::string> doubts = MeasuredProfiles(model.scene).warnings(false);
-    for (const std::string &doubt : model.scene.doubts())
+    for (const std::string &doubt : doubts(model.scene))
       doubts.push_back(doubt);
     for (const std::string &doubt : {unseen_detail(model.scene), slow_step(model.dynamics)})
       if (!doubt.empty())
@@ -104,11 +107,11 @@ namespace tread
     // The patch at the end is compared as one on the finest cells.
     const double semi_axis = hertz(scene, scene.static_load()).semi_axis_x;
     if (const Scene::Range patch{scene.path_end() - semi_axis, scene.path_end() + semi_axis};
-        !scene.has_impacts() && !scene.is_finest(patch.begin, patch.end))
+        !scene.has_impacts() && !is_finest(scene, patch.begin, patch.end))
       warnings.push_back(
         format("the patch at the end, from %.4g to %.4g mm, lies outside the cubes of 'Mesh/Fine from (mm)' "
                "to 'Fine to (mm)', from %.4g to %.4g mm: its figures are those of longer cells",
-               1e3 * patch.begin, 1e3 * patch.end, 1e3 * scene.cubes().begin, 1e3 * scene.cubes().end));
+               1e3 * patch.begin, 1e3 * patch.end, 1e3 * cubes(scene).begin, 1e3 * cubes(scene).end));
     const bool varies = scene.contact.friction_varies(scene.path_end() - 2. * EndOfWay::length,
                                                       scene.path_end() + EndOfWay::length);
     if (const double share = end_of_way.ripple().share();
@@ -117,10 +120,10 @@ namespace tread
         format(
           "the tangential force swings by %.1f %% of the normal force (above %g %%): rolling is not steady",
           100. * share, 100. * large_ripple) +
-        (scene.friction_law()->is_constant() ? ""
-                                             : "; friction that falls with slip makes it oscillate by itself "
-                                               "where 'Contact/Friction memory (mm)' is "
-                                               "too short"));
+        (friction_law(scene)->is_constant() ? ""
+                                            : "; friction that falls with slip makes it oscillate by itself "
+                                              "where 'Contact/Friction memory (mm)' is "
+                                              "too short"));
     return warnings;
   }
 } // namespace tread

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run would cost.
 #include <tread/base/format.h>
+#include <tread/scene/assumptions.h>
+#include <tread/scene/doubts.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
 #include <tread/simulation/doubts.h>
 #include <tread/simulation/recorders/history.h>
@@ -61,14 +64,13 @@ namespace tread
     /// From the finest cells of wheels and paths.
     double least_cells(const Scene &scene)
     {
-      const double h = scene.mesh.finest_cell,
-                   width =
-                     2. * (scene.is_positioned() ? scene.mesh.fine_half_width : scene.fine_half_width());
-      double longest = 0.; // of the ways along which all are fine at once, m
-      for (const Scene::Range &window : scene.windows())
+      const double h     = scene.mesh.finest_cell,
+                   width = 2. * (scene.is_positioned() ? scene.mesh.fine_half_width : fine_half_width(scene));
+      double longest     = 0.; // of the ways along which all are fine at once, m
+      for (const Scene::Range &window : windows(scene))
         longest = std::max(longest, window.end - window.begin);
       return all_over_finest * 2. * scene.n_wheels() * scene.mesh.fine_layers * std::max(1., width / h) *
-             (longest + (scene.has_window() ? 2. * scene.window_margin() : 0.)) /
+             (longest + (has_window(scene) ? 2. * window_margin(scene) : 0.)) /
              std::max(h, scene.mesh.path_cell);
     }
   } // namespace
@@ -87,7 +89,7 @@ namespace tread
       scene.rail.material.elastic().pressure_wave_speed() / std::sqrt(scene.general.density_scale);
     for (const std::string &unused : scene.unused_parameters())
       std::printf("WARNING: %s\n", unused.c_str());
-    for (const std::string &doubt : scene.doubts())
+    for (const std::string &doubt : doubts(scene))
       std::printf("WARNING: %s\n", doubt.c_str());
     std::printf(
       "cells                %10.2g million at least, by 'Mesh/Finest cell (mm)' %g: too many to make their "
@@ -97,7 +99,7 @@ namespace tread
                                                    scene.motion.speed * wave_speed / scene.mesh.finest_cell);
     std::printf("cells and nodes use  %12.0f MB at least\n", 1e-6 * bytes_of_cell * cells);
     std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
-                scene.inertia_error_estimate(), scene.general.density_scale);
+                inertia_error_estimate(scene), scene.general.density_scale);
     std::printf(
       "estimated time       none: larger cells have one, and half their size takes sixteen times as long\n");
     return true;
@@ -262,12 +264,12 @@ namespace tread
     OtherWindows other_windows(const Scene &scene)
     {
       OtherWindows found;
-      if (!scene.has_window() || !scene.has_cubes())
+      if (!has_window(scene) || !has_cubes(scene))
         return found;
-      const auto   windows    = scene.windows();
-      const double margin     = scene.window_margin();
+      const auto   windows    = windows(scene);
+      const double margin     = window_margin(scene);
       const auto   with_cubes = [&](const Scene::Range &window) {
-        return scene.cubes().begin < window.end + margin && scene.cubes().end > window.begin - margin;
+        return cubes(scene).begin < window.end + margin && cubes(scene).end > window.begin - margin;
       };
       for (unsigned int k = 1; k < windows.size(); ++k)
         if (with_cubes(windows[k]) != with_cubes(windows[0]))
@@ -287,7 +289,7 @@ namespace tread
     const OtherWindows others    = other_windows(scene);
     const PaceOfMesh   in_others = others.share > 0. ? pace_of(scene, comm, others.first) : pace;
     const double       share     = others.share;
-    const unsigned int n_windows = scene.windows().size();
+    const unsigned int n_windows = windows(scene).size();
     const auto         seconds   = [&](const double density_scale, const double gain_of_levels) {
       const double longer = std::sqrt(density_scale / scene.general.density_scale);
       const auto   of     = [&](const PaceOfMesh &mesh) {
@@ -299,7 +301,7 @@ namespace tread
                                       share * of(in_others) + rows * pace.row) +
              beside_steps;
     };
-    std::vector<std::string> doubts = scene.doubts();
+    std::vector<std::string> doubts = doubts(scene);
     if (const std::string unseen = unseen_detail(scene); !unseen.empty())
       doubts.push_back(unseen);
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -310,7 +312,7 @@ namespace tread
           std::printf("%s\n", defect.c_str());
         for (const std::string &doubt : doubts)
           std::printf("WARNING: %s\n", doubt.c_str());
-        if (scene.has_window())
+        if (has_window(scene))
           std::printf(
             "window of fine cells %12u places; cells, memory and time step are those of the first one\n",
             n_windows);
@@ -325,7 +327,7 @@ namespace tread
         std::printf("all processes use    %12.0f MB by now; a run some 30 %% more\n",
                     std::max(pace.largest_process, in_others.largest_process) / 1e6);
         std::printf("inertia error        %12.2g   (speed / wave speed)^2 at density scale %g\n",
-                    scene.inertia_error_estimate(), scene.general.density_scale);
+                    inertia_error_estimate(scene), scene.general.density_scale);
         std::printf(
           "estimated time       %12.3g s on %u rank(s); a step takes %.3g ms, of which forces %.3g\n",
           seconds(scene.general.density_scale, pace.gain), dealii::Utilities::MPI::n_mpi_processes(comm),
@@ -344,7 +346,7 @@ namespace tread
             std::printf("'Density scale' %4g: s            ", scale);
             for (const double gain_of_levels : pace.gains)
               std::printf("%9.1f", seconds(scale, gain_of_levels));
-            std::printf("   %.2g\n", scene.inertia_error_estimate() * scale / scene.general.density_scale);
+            std::printf("   %.2g\n", inertia_error_estimate(scene) * scale / scene.general.density_scale);
           }
         if (!pace.of_longer_steps.empty())
           std::printf("with 'Least step (us)'    kg added to the rail, to the wheels, on this mesh   "

@@ -4,6 +4,8 @@
 #include <tread/base/version.h>
 #include <tread/output/quality.h>
 #include <tread/output/summary_keys.h>
+#include <tread/scene/assumptions.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/comparison.h>
@@ -87,7 +89,7 @@ namespace tread
     summary.set("steps", model.dynamics.state.n_steps);
     summary.set("time_step_s", model.dynamics.state.time_step);
     summary.set("density_scale", scene.general.density_scale);
-    summary.set("inertia_error_estimate", scene.inertia_error_estimate());
+    summary.set("inertia_error_estimate", inertia_error_estimate(scene));
     summary.set("passages", scene.motion.passages);
     if (scene.time_stepping.least_step > 0.)
       {
@@ -201,12 +203,12 @@ namespace tread
     const Compared     compared = compare_with_half_space(answer, summary);
     if (!compared.note.empty())
       summary.set("note", compared.note);
-    summary.set("assumptions", scene.assumptions(starts_with_tractions));
+    summary.set("assumptions", assumptions(scene, starts_with_tractions));
     summary.set("unused_parameters", scene.unused_parameters());
     const Quality judged = quality(energy);
     judged.add_to(summary);
     report.warnings = judged.warnings();
-    if (scene.has_window())
+    if (has_window(scene))
       {
         summary.set("windows", window.number + 1);
         summary.set("window_loss_J", energy.window);

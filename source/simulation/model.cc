@@ -9,7 +9,10 @@
 #include <tread/dynamics/parts/supports.h>
 #include <tread/dynamics/parts/track_beyond.h>
 #include <tread/dynamics/parts/wheel.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/surface_laws.h>
+#include <tread/scene/track_parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/model.h>
 #include <tread/track/rail_ends.h>
@@ -30,10 +33,10 @@ namespace tread
            make_bodies(scene, fine_window(scene, window.number, window.tread)),
            scene.time_stepping.levels - 1,
            cell_cost(scene),
-           scene.has_window())
+           has_window(scene))
     , solid(mesh, materials(scene), solid_parameters(scene), plastic_zones(scene))
     , dynamics(mesh, solid, dynamics_parameters(scene))
-    , contact(mesh, contact_parameters(scene), scene.friction_law())
+    , contact(mesh, contact_parameters(scene), friction_law(scene))
     , wheelset(scene)
     , between_pieces(scene.rail.is_sliced() ? scene.placed_wheel().between_pieces() : std::nullopt)
   {
@@ -58,11 +61,11 @@ namespace tread
       }
     if (scene.track.runs_along())
       {
-        rail_base = std::make_unique<RailBase>(scene.rail_base_parameters());
+        rail_base = std::make_unique<RailBase>(rail_base_parameters(scene));
         dynamics.add<RailOnBase>(*rail_base, rail_body);
       }
     if (scene.track.is_beam())
-      rail_on_beam = &dynamics.add<RailOnBeam>(scene.beam_under_rail(), rail_body);
+      rail_on_beam = &dynamics.add<RailOnBeam>(beam_under_rail(scene), rail_body);
     dynamics.attach_contact(contact);
     if (window.number == 0)
       check_added_mass();
@@ -134,17 +137,17 @@ namespace tread
 
   void Model::add_supports()
   {
-    supports = std::make_unique<Supports>(mesh, rail_body, scene.support_positions(),
-                                          scene.track_parameters(), solid_sleepers(scene));
-    for (const int number : scene.recorded_supports())
+    supports = std::make_unique<Supports>(mesh, rail_body, support_positions(scene), track_parameters(scene),
+                                          solid_sleepers(scene));
+    for (const int number : recorded_supports(scene))
       supports->add_probe(mid_span_beside(scene, number));
-    auto beyond = scene.track_beyond();
+    auto beyond = track_beyond(scene);
     if (beyond && scene.track.has_solid_sleepers())
       {
-        TrackParameters alike = scene.track_parameters();
+        TrackParameters alike = track_parameters(scene);
         alike.exceptions.clear();
         (*beyond)[0].sleeper = (*beyond)[1].sleeper =
-          modes_at_seat(mesh, rail_body, supports->solid_sleepers.front(), scene.support_positions().front(),
+          modes_at_seat(mesh, rail_body, supports->solid_sleepers.front(), support_positions(scene).front(),
                         alike, materials(scene), solid_parameters(scene));
       }
     dynamics.add<RailOnSupports>(*supports, scene.rail.material.elastic(), beyond);
@@ -152,7 +155,7 @@ namespace tread
       dynamics.add<RailOnTrackBeyond>(rail_body, scene.rail.material.elastic(), *beyond);
     else
       dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
-    if (const AbsorbingEnds ends = scene.absorbing_ends(); ends.length > 0.)
+    if (const AbsorbingEnds ends = absorbing_ends(scene); ends.length > 0.)
       dynamics.add<DampedNodes>(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
     dynamics.guide_nodes(supports->guided_nodes(1), 1);
     for (const SolidSleeper &sleeper : supports->solid_sleepers)
@@ -169,7 +172,7 @@ namespace tread
       contact.vary_friction([this](const Vector3 place) {
         const Scene &of = this->scene;
         return of.contact.friction_factor(place[0]) *
-               (of.contact.varies_across() ? of.factor_across(place) : 1.);
+               (of.contact.varies_across() ? factor_across(of, place) : 1.);
       });
     if (!section.friction_pressures.empty())
       contact.vary_friction_with_pressure(

@@ -3,7 +3,10 @@
 #include <tread/base/stop_signal.h>
 #include <tread/base/version.h>
 #include <tread/base/went_wrong.h>
+#include <tread/scene/assumptions.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/measured_profiles.h>
+#include <tread/scene/track_parts.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/doubts.h>
 #include <tread/simulation/recorders/impact_record.h>
@@ -41,7 +44,7 @@ namespace tread
   Simulation::Simulation(const Scene &scene, const MPI_Comm comm, const WindowPlace &window)
     : window(window)
     , scene(scene)
-    , windows(scene.windows())
+    , windows(windows(scene))
     , comm(comm)
     , model(scene, comm, window)
     , added_mass(model.added_mass())
@@ -58,12 +61,12 @@ namespace tread
     SurfaceDamageRecorder *const damage =
       scene.damage.record ? &record<SurfaceDamageRecorder>(model) : nullptr;
     if (scene.has_impacts())
-      record<ImpactRecord>(scene.static_load(), scene.recorded_supports());
+      record<ImpactRecord>(scene.static_load(), recorded_supports(scene));
     if (scene.output.strip_half_width > 0.)
       record<StripRecorder>(model, window);
     if (scene.peak_stress.is_wanted())
       record<PeakRecorder>(model);
-    if (!scene.recorded_supports().empty())
+    if (!recorded_supports(scene).empty())
       record<SeatRecorder>(model);
     record<PlasticStrainRecorder>(model);
     if (scene.motion.passages > 1)
@@ -195,7 +198,7 @@ namespace tread
                         (unsigned long long)model.mesh.n_global_cells,
                         3ull * (model.mesh.n_global_nodes - model.mesh.n_global_hanging_nodes),
                         dealii::Utilities::MPI::n_mpi_processes(comm), n_lanes));
-    for (const std::string &assumption : scene.assumptions())
+    for (const std::string &assumption : assumptions(scene))
       progress.say("assumed: " + assumption);
     for (const std::string &unused : scene.unused_parameters())
       progress.say("WARNING: " + unused);

@@ -5,6 +5,7 @@
 #include <tread/output/columns.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
+#include <tread/scene/doubts.h>
 #include <tread/tools/contact_points_files.h>
 
 #include <deal.II/base/mpi.h>
@@ -281,7 +282,7 @@ namespace tread
         1e3 * about.equilibrium));
     else if (std::isnan(about.equilibrium))
       progress.say("the rolling radii are unlike at all shifts: there is no equivalent conicity");
-    for (const std::string &warning : scene.implausible_values(true))
+    for (const std::string &warning : implausible_values(scene, true))
       progress.say("warning: " + warning);
     if (!complaint.empty())
       progress.say("warning: rows are missing: " + complaint);

@@ -3,6 +3,7 @@
 #include <tread/base/version.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
+#include <tread/scene/doubts.h>
 #include <tread/scene/touched_pieces.h>
 #include <tread/tools/contact_way_files.h>
 
@@ -151,7 +152,7 @@ namespace tread
     const auto [low, high] = std::minmax_element(way.height.begin(), way.height.end());
     progress.say(format("the wheelset stands %.4f to %.4f mm over the rail tops' plane and its radius",
                         1e3 * *low, 1e3 * *high));
-    for (const std::string &warning : scene.implausible_values(true))
+    for (const std::string &warning : implausible_values(scene, true))
       progress.say("warning: " + warning);
     progress.say(format("\nfinished in %.2f s. Results in ", progress.seconds()) + folder.path("") +
                  ": contact_way.csv");

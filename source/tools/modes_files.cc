@@ -6,6 +6,7 @@
 #include <tread/output/run_folder.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/track_parts.h>
 #include <tread/simulation/rolling_wheel.h>
 #include <tread/tools/modes_files.h>
 #include <tread/track/track_beam.h>
@@ -523,7 +524,7 @@ namespace tread
         }
       system.attach_supports(*supports);
       system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::end), 0);
-      if (const AbsorbingEnds ends = scene.absorbing_ends(); ends.length > 0.)
+      if (const AbsorbingEnds ends = absorbing_ends(scene); ends.length > 0.)
         system.damp_nodes(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
       system.guide_nodes(supports->guided_nodes(1), 1);
       for (const SolidSleeper &sleeper : supports->solid_sleepers)
@@ -552,7 +553,7 @@ namespace tread
       throw InputError(
         "tread modes: 'Track/Foundation' beam has no modes of its own, as waves leave along the "
         "beam; with one-layer or two-layer a whole rail of cells has");
-    if (scene.track_beyond())
+    if (track_beyond(scene))
       throw InputError(
         "tread modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "
         "rail of the cells has");
@@ -606,8 +607,8 @@ namespace tread
         with_body[wheel_body(k)] = false;
       std::unique_ptr<Supports> supports;
       if (scene.track.has_supports())
-        supports = std::make_unique<Supports>(mesh, rail_body, scene.support_positions(),
-                                              scene.track_parameters(), solid_sleepers(scene));
+        supports = std::make_unique<Supports>(mesh, rail_body, support_positions(scene),
+                                              track_parameters(scene), solid_sleepers(scene));
       ElasticSystem system(mesh, with_body, material, parameters);
       hold_track(scene, mesh, supports.get(), system);
       system.assemble();

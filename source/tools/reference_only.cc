@@ -5,6 +5,7 @@
 #include <tread/output/summary_keys.h>
 #include <tread/reference/subsurface.h>
 #include <tread/reference/transient.h>
+#include <tread/scene/doubts.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/steady_damage_tables.h>
@@ -267,7 +268,7 @@ namespace tread
     summary.set("tangential_residual", half_space.tangential_residual);
     const MeasuredProfiles   profiles(scene);
     std::vector<std::string> warnings = scene.unused_parameters();
-    for (const std::vector<std::string> &more : {scene.implausible_values(), profiles.warnings()})
+    for (const std::vector<std::string> &more : {implausible_values(scene), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
     if (!scene.is_round())
       warnings.push_back("the wheel is taken as round: tread positions solves wheels that are not");

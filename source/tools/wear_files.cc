@@ -9,7 +9,9 @@
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
 #include <tread/output/summary_keys.h>
+#include <tread/scene/doubts.h>
 #include <tread/scene/measured_profiles.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/tools/wear_files.h>
 
@@ -142,7 +144,7 @@ namespace tread
               "tread wear needs a wheelset in its track: give 'Wheelset/Lateral shift (mm)' a number, 0 too");
       require(!scene.rail.is_sliced(),
               "tread wear needs a rail that is the same everywhere: 'Rail/Shape' cannot be slices");
-      require(scene.wear_law() != nullptr, "tread wear needs a law: 'Damage/Wear law' must not be none");
+      require(wear_law(scene) != nullptr, "tread wear needs a law: 'Damage/Wear law' must not be none");
       require(scene.guidance.kind != Guidance::file && scene.contact.friction_places.empty() &&
                 !scene.contact.varies_across(),
               "tread wear has no use for 'Guidance/Kind' file, 'Contact/Friction places (mm)' and friction "
@@ -154,7 +156,7 @@ namespace tread
     ProfileWearParameters parameters_of(const Scene &scene)
     {
       ProfileWearParameters p;
-      p.law        = scene.wear_law();
+      p.law        = wear_law(scene);
       p.passages   = scene.profile_wear.passages;
       p.turns      = scene.profile_wear.turns;
       p.spacing    = scene.profile_wear.spacing;
@@ -593,7 +595,7 @@ namespace tread
     std::vector<std::string> warnings;
     warn_of_patches(wear, scene.profile_wear.smoothing, warnings);
     for (const std::vector<std::string> &more :
-         {scene.unused_parameters(), scene.implausible_values(), profiles.warnings()})
+         {scene.unused_parameters(), implausible_values(scene), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
     const WearStep &last = wear.steps().back();
     Summary         summary;

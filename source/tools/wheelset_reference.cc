@@ -4,6 +4,7 @@
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
 #include <tread/output/summary_keys.h>
+#include <tread/scene/doubts.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/scene/steady_damage_tables.h>
@@ -40,7 +41,7 @@ namespace tread
       warnings.push_back(warning);
     const MeasuredProfiles profiles(scene);
     for (const std::vector<std::string> &more :
-         {scene.unused_parameters(), scene.implausible_values(), profiles.warnings()})
+         {scene.unused_parameters(), implausible_values(scene), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
 
     Summary summary;

@@ -9,7 +9,11 @@
 #include <tread/geometry/rail_slices.h>
 #include <tread/geometry/wheel_deviation.h>
 #include <tread/mesh/mesh_rail.h>
+#include <tread/scene/assumptions.h>
+#include <tread/scene/recorded.h>
 #include <tread/scene/scene.h>
+#include <tread/scene/surface_laws.h>
+#include <tread/scene/track_parts.h>
 #include <tread/scene/wheelset_motion.h>
 #include <tread/tools/batch_files.h>
 
@@ -159,7 +163,7 @@ namespace tread::fuzz
     {
       Scene scene;
       scene.read_surfaces("", {"Track/Foundation=two-layer", "Track/Support file=" + file});
-      scene.track_parameters();
+      track_parameters(scene);
     }
 
     void read_parameters(const std::string &file)
@@ -175,11 +179,11 @@ namespace tread::fuzz
       std::ostringstream text;
       scene.print(text, true);
       scene.unused_parameters();
-      scene.assumptions();
-      scene.friction_law();
-      scene.track_parameters();
-      scene.recorded_supports();
-      scene.recorded_cells();
+      assumptions(scene);
+      friction_law(scene);
+      track_parameters(scene);
+      recorded_supports(scene);
+      recorded_cells(scene);
     }
 
     /// Each line as an option -s.

@@ -5,9 +5,13 @@
 #include <tread/geometry/contact_points.h>
 #include <tread/geometry/rail_profile.h>
 #include <tread/reference/hertz.h>
+#include <tread/scene/doubts.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/islands.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/recorded.h>
+#include <tread/scene/track_parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/track/track_beam.h>
@@ -346,15 +350,15 @@ namespace
     const auto        scene = scene_of(on_track, {"Track/Support file=" + file});
 
     // Middles of the sleepers at 50 mm + 610 mm times the number that are on the rail.
-    const std::vector<double> positions = scene->support_positions();
+    const std::vector<double> positions = support_positions(*scene);
     check.absolute("track: supports", positions.size(), 7, 0.);
-    check.absolute("track: number of the first", scene->first_support(), -3, 0.);
+    check.absolute("track: number of the first", first_support(*scene), -3, 0.);
     check.absolute("track: place of the first, mm", 1e3 * positions.front(), -1780., 1e-9);
     check.absolute("track: place of the last, mm", 1e3 * positions.back(), 1880., 1e-9);
     check.that("track: supports beside the path are recorded",
-               scene->recorded_supports() == std::vector<int>({-1, 0}));
+               recorded_supports(*scene) == std::vector<int>({-1, 0}));
 
-    const TrackParameters track = scene->track_parameters();
+    const TrackParameters track = track_parameters(*scene);
     check_springs(check, "track: ", track.springs, {610e6, 47e6, 21e3, 33e3, 0.});
     check.absolute("track: supports that differ", track.exceptions.size(), 1, 0.);
     check_springs(check, "track: support 2, the sixth on the rail: ", track.springs_of(5),
@@ -368,10 +372,10 @@ namespace
     check.relative("track: sleeper mass, kg", track.sleeper_mass, 171., 0.);
     // A rail of 159 mm that leans to the gauge side by 1:20 has its foot to the field side of its top.
     check.relative("track: middle of the pads, mm", 1e3 * track.pad_middle, 159. / std::sqrt(401.), 1e-9);
-    check.relative("track: base of the rail, mm", 1e3 * scene->base_middle()[2],
-                   -159. * 20. / std::sqrt(401.), 1e-9);
+    check.relative("track: base of the rail, mm", 1e3 * base_middle(*scene)[2], -159. * 20. / std::sqrt(401.),
+                   1e-9);
 
-    const AbsorbingEnds ends = scene->absorbing_ends();
+    const AbsorbingEnds ends = absorbing_ends(*scene);
     check.relative("absorbing ends: length, m", ends.length, 0.9, round_off);
     check.relative("absorbing ends: from, m", ends.begin, -2.05, round_off);
     check.relative("absorbing ends: to, m", ends.end, 2.05, round_off);
@@ -412,13 +416,13 @@ namespace
     const auto plain =
       scene_of(on_track, {"Track/Pads pull=true", "Track/Sleepers=mass", "Track/Foundation=one-layer",
                           "Rail/Ends=symmetric", "Output/Supports=-3,2"});
-    check.that("track: pads pull", plain->track_parameters().pads_pull);
-    check.that("track: one layer", !plain->track_parameters().two_layers);
-    check.that("track: none of the supports differs", plain->track_parameters().exceptions.empty());
-    check.below("symmetric ends absorb nothing, m", plain->absorbing_ends().length, 0.);
-    check.that("symmetric ends: nothing beyond", !plain->track_beyond());
+    check.that("track: pads pull", track_parameters(*plain).pads_pull);
+    check.that("track: one layer", !track_parameters(*plain).two_layers);
+    check.that("track: none of the supports differs", track_parameters(*plain).exceptions.empty());
+    check.below("symmetric ends absorb nothing, m", absorbing_ends(*plain).length, 0.);
+    check.that("symmetric ends: nothing beyond", !track_beyond(*plain));
     check.that("track: supports that are named are recorded",
-               plain->recorded_supports() == std::vector<int>({-3, 2}));
+               recorded_supports(*plain) == std::vector<int>({-3, 2}));
     check.that("rigid sleepers are no bodies", solid_sleepers(*plain).empty());
     check.absolute("materials: rail, wheel", materials(*plain).size(), 2, 0.);
   }
@@ -436,7 +440,7 @@ namespace
                              {"Track/Beam file=" + folder.write("beam.csv", columns + rows)});
     };
     const auto          scene = scene_with("-30,7.3,547,94.5\n-3,0.93,297,34.3\n33,5.5,210,55\n", names);
-    const BeamUnderRail beam  = scene->beam_under_rail();
+    const BeamUnderRail beam  = beam_under_rail(*scene);
     check.relative("beam: bending stiffness, MN m2", 1e-6 * beam.section.bending_stiffness, 5.5, round_off);
     check.relative("beam: shear stiffness, MN", 1e-6 * beam.section.shear_stiffness, 210., round_off);
     check.relative("beam: mass, kg/m", beam.section.mass, 55., round_off);
@@ -506,8 +510,8 @@ namespace
       scene_of(on_track, {"Track/Support file=" + file, "Track/Pads pull=true", "Rail/Ends=endless",
                           "Rail/Spans beyond=17", "Track/Stiffness along the rail (MN per m)=37",
                           "Vehicle/Gravity (m per s2)=9.7"});
-    check.below("endless ends absorb nothing in the cells, m", scene->absorbing_ends().length, 0.);
-    const auto beyond = scene->track_beyond();
+    check.below("endless ends absorb nothing in the cells, m", absorbing_ends(*scene).length, 0.);
+    const auto beyond = track_beyond(*scene);
     check.that("endless ends", bool(beyond));
     if (!beyond)
       return;
@@ -579,13 +583,13 @@ namespace
 
     // From the middle to a semi-axis behind the trailing edge.
     const auto         peaks  = scene_of(dip, {"Peak stress/Region=trailing edge"});
-    const Scene::Range region = peaks->peak_range();
+    const Scene::Range region = peak_range(*peaks);
     check.absolute("peaks: from the middle of the dip, mm", 1e3 * region.begin, 5., 1e-9);
     check.absolute("peaks: to a semi-axis behind its end, mm", 1e3 * region.end,
                    15. + 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_x, 1e-9);
     // As wide as the patch, but no wider than to where a round edge runs at 45 degrees.
     const double patch = 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_y;
-    check.absolute("peaks: half width of the patch, mm", 1e3 * peaks->peak_half_width(), patch, 1e-9);
+    check.absolute("peaks: half width of the patch, mm", 1e3 * peak_half_width(*peaks), patch, 1e-9);
     for (const Settings &narrow :
          {Settings{"Defect/Width (mm)=6"}, Settings{"Defect/Length (mm)=6", "Defect/Depth (mm)=0.05"},
           Settings{"Defect/Length (mm)=6", "Defect/Shape=none"}})
@@ -597,10 +601,10 @@ namespace
       }
     const auto         chosen = scene_of(dip, {"Peak stress/Region=range", "Peak stress/From (mm)=3",
                                                "Peak stress/To (mm)=17", "Peak stress/Half width (mm)=4"});
-    const Scene::Range range  = chosen->peak_range();
+    const Scene::Range range  = peak_range(*chosen);
     check.absolute("peaks: from, mm", 1e3 * range.begin, 3., 1e-9);
     check.absolute("peaks: to, mm", 1e3 * range.end, 17., 1e-9);
-    check.absolute("peaks: half width, mm", 1e3 * chosen->peak_half_width(), 4., 1e-9);
+    check.absolute("peaks: half width, mm", 1e3 * peak_half_width(*chosen), 4., 1e-9);
 
     // The wheel ends at 30 mm, and its patch a semi-axis of some 7 mm further on; not to be sure has room.
     const auto met = [&](const Settings &more) {
@@ -694,9 +698,9 @@ namespace
                  scene_of(base, {line("noise.txt", [&](const double x) {
                             return waves(x) - (x > 0. && x < 40. ? 0.008 * (1. + std::sin(1e4 * x * x)) : 0.);
                           })});
-    check.that("a smooth line has no doubts", seen->doubts().empty());
-    check.that("a step has", has(step->doubts(), "detail along the rail"));
-    check.that("noise has", has(noise->doubts(), "detail along the rail"));
+    check.that("a smooth line has no doubts", doubts(*seen).empty());
+    check.that("a step has", has(doubts(*step), "detail along the rail"));
+    check.that("noise has", has(doubts(*noise), "detail along the rail"));
     // A sine of two cells' length between nodes at its zeros is not seen at all; a straight line through
     // nodes leaves the root of its mean square, 1/sqrt(2), and a cubic next to that.
     const auto sine =
@@ -706,7 +710,7 @@ namespace
                            }),
                       "Defect/Ramp (mm)=8"});
     check.that("waves of a cell's length are seen by no node",
-               sine->detail_along() > 2e-6 && sine->detail_along() < 8e-6);
+               detail_along(*sine) > 2e-6 && detail_along(*sine) < 8e-6);
     check.that("heights in m are refused",
                tests::complaint<std::exception>([&]() {
                  scene_of(base, {line("metres.txt", [&](const double x) { return 1e-3 * 0.5 * waves(x); })});
@@ -1005,7 +1009,7 @@ namespace
 
     // Depth counts from the crown of 300 mm radius, at x, y.
     const auto                  cells     = scene_of({"Output/Cells=-3,8,2;5,-4,3.5"});
-    const std::vector<Point<3>> points_of = cells->recorded_cells();
+    const std::vector<Point<3>> points_of = recorded_cells(*cells);
     const std::vector<Point<3>> expected{{-3., 8., std::sqrt(300. * 300. - 64.) - 300. - 2.},
                                          {5., -4., std::sqrt(300. * 300. - 16.) - 300. - 3.5}};
     check.absolute("cells", points_of.size(), 2, 0.);
@@ -1020,9 +1024,9 @@ namespace
   {
     // A load that doubles or triples makes the patch wider by its cube root.
     const auto   quasi_static = scene_of(block), dynamic = scene_of(block, {"Scene/Quasi-static=false"});
-    const double wider = dynamic->fine_half_width() / quasi_static->fine_half_width();
+    const double wider = fine_half_width(*dynamic) / fine_half_width(*quasi_static);
     check.relative("fine half width without impacts: as the patch needs, mm",
-                   1e3 * quasi_static->fine_half_width(), 1e3 * quasi_static->needed_half_width(), round_off);
+                   1e3 * fine_half_width(*quasi_static), 1e3 * needed_half_width(*quasi_static), round_off);
     check.that("fine half width with them: there is room for twice the load", wider > std::cbrt(2.));
     check.that("fine half width with them: not for more than three times the load", wider < std::cbrt(3.));
     check.relative("fine half width as it is given, mm",
@@ -1270,7 +1274,7 @@ namespace
     const auto     of_length = [&](const std::string &name, const Settings &more,
                                const std::vector<double> &borders) {
       const auto scene   = scene_of(way, more);
-      const auto windows = scene->windows();
+      const auto windows = windows(*scene);
       check.absolute(name + ": number of windows", windows.size(), borders.size() - 1, 0.);
       for (std::size_t k = 0; k < std::min(windows.size(), borders.size() - 1); ++k)
         {
@@ -1304,7 +1308,7 @@ namespace
     Settings usual = until("90");
     usual.erase(usual.begin());
     const auto   scene    = scene_of(way, usual);
-    const auto   windows  = scene->windows();
+    const auto   windows  = windows(*scene);
     const double own      = 2.5 * hertz(*scene, scene->static_load()).semi_axis_x; // without supports
     unsigned int expected = 0;
     for (const double stretch : {269e-3, 142e-3, 189e-3})

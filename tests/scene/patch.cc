@@ -2,6 +2,7 @@
 // Where the patch lies across the rail before a run: half-space theory on the coarse grid of the check
 // against Hertz and against a finer one, for S1002 treads that touch to one side; what leaves the rail is
 // refused.
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 
 #include "check.h"
@@ -37,7 +38,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
   // Elements of a tenth of the semi-axis; the outermost centres lie inside.
   check.absolute("round crown: half the patch's width over Hertz's",
                  0.5 * (crown.patch_extent().end - crown.patch_extent().begin) / b, 0.95, 0.051);
-  check.absolute("round crown: the path's middle, mm", 1e3 * crown.path_y(), 0., 0.);
+  check.absolute("round crown: the path's middle, mm", 1e3 * path_y(crown), 0., 0.);
 
   // Tractions of a start: the half-space's in its patch, beside it those of its rim.
   const reference::RollingResult answer = reference::solve_rolling(half_space_case(crown));
@@ -73,7 +74,7 @@ void run_test(tests::Check &check, const tests::Arguments &)
       check.absolute(name + "the other side, mm", 1e3 * (patch.end - y), 1e3 * end, 1e3 * element);
       check.that(name + "it is wider to one side by half or more", patch.end - y > 1.5 * (y - patch.begin));
       check.below(name + "the path's middle from the patch's, cells",
-                  (scene.path_y() - 0.5 * (patch.begin + patch.end)) / 1.3e-3, 1.);
+                  (path_y(scene) - 0.5 * (patch.begin + patch.end)) / 1.3e-3, 1.);
       auto narrow = s1002(profile, "0");
       narrow.push_back("Mesh/Fine half width (mm)=7");
       check.that(name + "cells fine on 7 mm to each side do not hold it",

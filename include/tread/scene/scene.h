@@ -138,25 +138,7 @@ namespace tread
     /// Where the wheelset stands at a time from the start (s) if 'Guidance' has a file. @pre guidance.kind is
     /// file
     Across across(const double time) const;
-    /// Check what finite elements need beyond the half-space's answer. @pre is_positioned() @throws
-    /// InputError
-    void check_placed_mesh() const;
 
-    /// Rolling speed over the speed of Rayleigh waves in the scaled material, squared: the order of
-    /// the relative error that the inertia of rolling makes in a quasi-static scene.
-    double inertia_error_estimate() const;
-
-    /// Whether the axle follows the load of its wheels without the inertia of their mass: steady rolling.
-    bool settles() const;
-
-    /// Numerical assumptions that are not part of the physics of the scene (scaled density, mass damping,
-    /// predicted start), one line each. @param has_tractions at the start: those that were predicted are laid
-    /// on
-    std::vector<std::string> assumptions(const bool has_tractions) const;
-    std::vector<std::string> assumptions() const
-    {
-      return assumptions(start.tractions == StartTractions::predicted);
-    }
 
     /// Files that the scene has read, its parameter files first, with their contents as they were then.
     const std::vector<FileRead> &files_read() const
@@ -170,66 +152,18 @@ namespace tread
     /// surfaces().half_width.
     bool has_narrow_head() const;
 
-    /// Whether no wheel's patch comes to the defect, nor to any other like it, on all of the way that is
-    /// meshed; false where that is not sure. @pre made_defect()
-    bool misses_defect() const;
-
-    /// What makes the answer of finite elements doubtful before anything rolls, one line each: values that
-    /// are hardly meant, a defect that no wheel meets, detail that cells do not see, parts of the patch that
-    /// are narrow for them.
-    std::vector<std::string> doubts() const;
-    /// The values among these. @param stands_in_track also where the wheelset has no position of its own, as
-    /// in a table over its lateral shift
-    std::vector<std::string> implausible_values(const bool stands_in_track = false) const;
 
     /// Where the defect lies and how deep, and what the wheel is not round by, one line; empty: neither.
     std::string defect_in_words() const;
 
-    /// Of the friction coefficient across the rail, at a place of its surface in the reference configuration.
-    /// @pre contact.varies_across()
-    double factor_across(const Vector3 &place) const;
-
-    /// The same over the patch of the static load by half-space theory, weighted with its pressure: what
-    /// friction carries over what it would with a factor of 1.
-    double mean_factor_across() const;
-
-    /// The law that the scene names, with its parameters. @throws InputError
-    std::shared_ptr<const FrictionLaw> friction_law() const;
-
-    /// Yield stress of the rail in shear, Pa; 0: not known.
-    double shear_strength() const
-    {
-      return damage.shear_strength > 0. ? damage.shear_strength : rail.material.yield_stress / std::sqrt(3.);
-    }
-    /// Indices of damage with their parameters, in the order of damage_indices(). @throws InputError
-    DamageIndices indices_of_damage() const;
-    /// What surfaces lose, with its parameters; null: nothing.
-    std::shared_ptr<const WearLaw> wear_law() const;
-
-    TrackParameters    track_parameters() const;
-    RailBaseParameters rail_base_parameters() const;
-    /// Under the meshed piece of the rail, its cells' mass included.
-    BeamUnderRail beam_under_rail() const;
-    /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.
-    AbsorbingEnds absorbing_ends() const;
-    /// The track beyond the ends of the rail, if these are endless.
-    std::optional<std::array<TrackBeamParameters, 2>> track_beyond() const;
-    /// Coordinates x of the supports on the rail, m, and the number of the first one. Support 0 lies where
-    /// the scene places it.
-    std::vector<double> support_positions() const;
-    int                 first_support() const;
-    /// The middle of the rail's base at x = 0.
-    dealii::Point<3> base_middle() const;
-    /// Numbers of the supports written to history.csv: those selected, or those next to the path of the
-    /// wheel.
-    std::vector<int> recorded_supports() const;
-    /// Positions in the rail (reference configuration, m) whose cells are written to cells.csv. @throws
-    /// InputError
-    std::vector<dealii::Point<3>> recorded_cells() const;
 
     unsigned int n_wheels() const
     {
       return 1 + further_wheels.distances.size();
+    }
+    unsigned int last_wheel() const
+    {
+      return n_wheels() - 1;
     }
     /// x of a wheel at the start and at the solution instant, m. Wheel 0 runs ahead of the others.
     double path_begin(const unsigned int number = 0) const
@@ -245,16 +179,6 @@ namespace tread
     {
       return path_begin(number) + motion.meshed_distance();
     }
-    /// How much longer the way along the tread may be than that along the rail, m per m: the creepage that is
-    /// given, or what rolling with traction takes.
-    double largest_creepage() const;
-    /// Way along the tread for which its cells are fine, m: that of the axle, and more where the creepage
-    /// would use up what is fine behind it.
-    double meshed_tread() const;
-    /// Longest sector of a wheel that is not closed to a ring, m along the tread.
-    double longest_sector() const;
-    /// Whether a sector of the wheel would be longer, for a way of about a turn or more.
-    bool wheel_is_ring() const;
     /// Longitudinal over normal force that the drive of a wheel aims at.
     double traction_coefficient(const unsigned int number) const;
     /// Ends of the rail, m.
@@ -281,6 +205,11 @@ namespace tread
     {
       return shapes->unevenness > 0.;
     }
+    /// By how much, m.
+    double unevenness() const
+    {
+      return shapes->unevenness;
+    }
     /// Position in the rail's own axes, which are inclined with it.
     dealii::Point<3> in_rail_axes(const dealii::Point<3> &p) const;
 
@@ -298,13 +227,6 @@ namespace tread
     {
       return shapes->defect.get();
     }
-    /// How far the gap between wheel and rail, across the patch, differs between nodes of finest cells from
-    /// the cubics through the nearest four of them, root of the mean square (m): detail of profiles that the
-    /// mesh does not see. 0 of a wheelset's positions, where cells follow the patch.
-    double detail_within_cells() const;
-    /// The same along the path, of a defect from a file: the largest root of the mean square over a patch's
-    /// half length.
-    double detail_along() const;
     /// Whether the wheel is a body of revolution.
     bool is_round() const
     {
@@ -349,58 +271,38 @@ namespace tread
     {
       return shapes->patch;
     }
-    /// Half width of the zone of finest cells, from the middle of the path: as prescribed, or as the patch
-    /// requires, m.
-    double fine_half_width() const;
-    /// Smallest admissible half width of that zone, m.
-    double needed_half_width() const;
-    /// Lateral middle of the finely meshed path: the first contact, shifted by whole cells towards the middle
-    /// of the patch, m.
-    double path_y() const;
     /// Where the largest stresses are looked for, x in m. @throws InputError if nothing says where the defect
     /// ends.
     struct Range
     {
       double begin, end;
     };
-    Range peak_range() const;
-    /// Of a wheel of which a sector or a ring is meshed, along the tread from where it is lowest at the
-    /// start, m.
-    Range meshed_arc() const;
-    /// Whether cells of the path are longer than the finest ones but for a stretch of cubes.
-    bool has_cubes() const
+    /// The parts of that patch, more than one where a worn profile touches with a gap between.
+    const std::vector<Island> &islands() const
     {
-      return mesh.fine_from < mesh.fine_to && mesh.path_cell > mesh.finest_cell;
+      return shapes->islands;
     }
-    /// Where 'Mesh/Fine from (mm)' and 'Fine to (mm)' put the cubes of the finest cells, x in m.
-    Range cubes() const
-    {
-      return {defect.position + mesh.fine_from, defect.position + mesh.fine_to};
-    }
-    /// Whether cells are fine only about the wheel, by 'Mesh/Window'.
-    bool has_window() const;
-    /// What needs a mesh that stays during the run; "": nothing does.
-    std::string keeps_mesh() const;
-    /// Where the wheel rolls in each window of fine cells, one after the other, x in m: the whole way
-    /// without one. Borders lie where the first cubes come and the last ones go, others at equal distances
-    /// between.
-    std::vector<Range> windows() const;
-    /// Length of the fine cells before and behind such a range, m.
-    double window_margin() const;
-    /// Whether all cells from begin to end have the finest size: among the cubes, or wherever nothing
-    /// coarsens the path.
-    bool is_finest(const double begin, const double end) const
-    {
-      return !has_cubes() || (begin >= cubes().begin && end <= cubes().end);
-    }
-    /// And to each side of the first contact, m.
-    double peak_half_width() const;
-    /// Depth below the running surface of a point in the reference configuration, m.
-    double depth_in_rail(const dealii::Point<3> &p) const;
     /// Height of the axle at the start, m.
     double axle_height() const
     {
       return wheel.radius + first_contact().lift;
+    }
+    /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
+    std::string located(const std::string &file) const;
+    /// Of 'Track/Support file', by the number of the support.
+    const std::map<int, TrackParameters::Springs> &springs_of_supports() const
+    {
+      return support_springs;
+    }
+    /// Of 'Track/Beam file'.
+    const std::vector<BeamRow> &rows_of_beam() const
+    {
+      return beam_rows;
+    }
+    /// Of 'Guidance/File'; null: none.
+    const WheelsetMotion *motion_of_wheelset() const
+    {
+      return wheelset_motion.get();
     }
     /// Rolling radius of the wheel at the first contact; of both wheels of a wheelset the nominal one, m.
     double rolling_radius() const;
@@ -412,12 +314,8 @@ namespace tread
     bool                    has_fitted_lateral_radius() const;
 
   private:
-    TrackBeamParameters track_beam_alike() const; ///< but for the place of the first support
     /// Read a file and settings, unchecked.
     void take(const std::string &file, const std::vector<std::string> &settings);
-    /// @throws InputError unless it lasts as long as the run, in positions that are allowed
-    void check_guidance() const;
-    void check_guidance_springs() const;
     /// Read the table of 'Guidance', and the position at the start from it.
     void take_wheelset_motion();
     /// Read 'Track/Support file' and 'Beam file'.
@@ -444,64 +342,11 @@ namespace tread
     {
       return number == 0 ? 0. : further_wheels.distances[number - 1];
     }
-    unsigned int last_wheel() const
-    {
-      return n_wheels() - 1;
-    }
-
     /// Read the files that it includes, then its own lines, which therefore have the last word.
     /// @param depth of files that include each other. @throws InputError
     void parse(const std::string &file, const unsigned int depth = 0);
     void set(const std::string &setting);
     void check(const SceneUse use) const;
-    void check_motion() const;
-    void check_suspension() const;
-    void check_axle() const;
-    void check_wheelset() const;
-    void check_slices() const;
-    /// Of a wheelset of which one wheel is looked at.
-    void check_other_wheel() const;
-    void check_surfaces() const;
-    /// What check_surfaces() asks of a rail from a mesh file.
-    void check_mesh_rail() const;
-    /// @param file names the mesh
-    void check_slice(const std::string &file) const;
-    /// The change of its running surface, for messages.
-    std::string uneven_in_words() const;
-    void        check_defect() const;
-    void        check_peak_stress() const;
-    void        check_ratcheting() const;
-    void        check_mesh() const;
-    void        check_sector() const;
-    void        check_window() const;
-    double      usual_window() const; ///< way in one, m
-    void        check_friction_by_temperature() const;
-    void        check_beam() const;
-    void        check_track() const;
-    void        check_overhang() const;
-    void        check_plasticity() const;
-    /// Check that scaled density, mass damping and levels of time steps are used only where they are
-    /// admissible.
-    void check_numerics() const;
-    /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
-    std::string located(const std::string &file) const;
-    /// The least memory of a law that falls (m) with which slip under this load does not oscillate by itself;
-    /// 0: it does not without one.
-    double      needed_memory(const FrictionLaw &law) const;
-    std::string short_memory() const;
-    /// Tables along the path of which none lies on it, one line each.
-    std::vector<std::string> tables_beside_the_path() const;
-    /// What doubts() says of each; empty: nothing.
-    std::string missed_defect() const;
-    std::string flange_back_elsewhere() const;
-    std::string short_way() const;
-    std::string unseen_detail_along() const;
-    std::string narrow_island() const;
-    /// Length of the cells under the path from begin to end, the longest where they are not alike, m.
-    double cell_along(const double begin, const double end) const;
-    /// How far from a patch's edge, along the path and across, the wheel touches what rises so much above the
-    /// rail, m.
-    Range reach_of(const double height) const;
     /// Note the files that parameters name, with their contents.
     void note_files();
     /// Where the path and the rail begin and end.

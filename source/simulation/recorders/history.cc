@@ -3,7 +3,10 @@
 #include <tread/dynamics/parts/rail_base.h>
 #include <tread/dynamics/parts/rail_on_beam.h>
 #include <tread/output/summary_keys.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/recorded.h>
+#include <tread/scene/track_parts.h>
 #include <tread/simulation/recorders/history.h>
 #include <tread/track/supports.h>
 
@@ -27,13 +30,13 @@ namespace tread
       return {static_cast<unsigned int>(model.wheels.size()),
               scene.guidance.kind != Guidance::rigid,
               scene.wheelset.both_wheels,
-              scene.recorded_supports(),
+              recorded_supports(scene),
               scene.track.runs_along(),
               scene.track.is_beam(),
               scene.wheelset.has_flexible_axle(),
               scene.rail.is_sliced(),
               model.between_pieces.has_value(),
-              scene.has_window()};
+              has_window(scene)};
     }
   } // namespace
 
@@ -43,7 +46,7 @@ namespace tread
     , sums(model.wheels.size())
     , columns(history_columns(parts_of(model)))
   {
-    if (const auto points = model.scene.recorded_cells(); !points.empty())
+    if (const auto points = recorded_cells(model.scene); !points.empty())
       try
         {
           probes           = std::make_unique<CellProbes>(model.mesh, rail_body, points);
@@ -136,9 +139,9 @@ namespace tread
   std::vector<SupportRecord> History::support_records() const
   {
     std::vector<SupportRecord> records;
-    for (const int number : model.scene.recorded_supports())
+    for (const int number : recorded_supports(model.scene))
       {
-        const unsigned int s                  = number - model.scene.first_support();
+        const unsigned int s                  = number - first_support(model.scene);
         const auto [least_pressure, pressure] = model.supports->pad_pressures(s);
         records.push_back({model.supports->force(s, Supports::pad),
                            model.supports->force(s, Supports::ballast), pressure, least_pressure,
@@ -190,7 +193,7 @@ namespace tread
         const std::string       name   = "cell_" + std::to_string(i + 1);
         report.summary.set(name + "_x_m", centre[0]);
         report.summary.set(name + "_y_m", centre[1]);
-        report.summary.set(name + "_depth_m", model.scene.depth_in_rail(centre));
+        report.summary.set(name + "_depth_m", depth_in_rail(model.scene, centre));
       }
     report.summary.set("history_crc32", report.folder.history_checksum());
   }

@@ -2,7 +2,9 @@
 #include <tread/base/format.h>
 #include <tread/base/reproducible_sum.h>
 #include <tread/output/summary_keys.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/recorded.h>
 #include <tread/simulation/recorders/passages.h>
 
 #include <deal.II/base/mpi.h>
@@ -130,7 +132,7 @@ namespace tread
         if (const dealii::Point<3> &p = model.mesh.nodes[i];
             model.mesh.shared_nodes.is_owned(i) && is_in_middle_of(scene, p) &&
             (scene.is_positioned() ? scene.placed_wheel().is_on_path(p, scene.mesh.finest_cell)
-                                   : std::abs(p[1] - scene.path_y()) <= half))
+                                   : std::abs(p[1] - path_y(scene)) <= half))
           nodes.push_back(i);
       return nodes;
     }
@@ -304,7 +306,7 @@ namespace tread
         return;
       }
     const dealii::Point<3> place = growth.place();
-    const double           depth = model.scene.depth_in_rail(place);
+    const double           depth = depth_in_rail(model.scene, place);
     summary.set("net_plastic_strain_y_m", place[1]);
     summary.set("net_plastic_strain_depth_m", depth);
     report.lines +=

@@ -2,6 +2,8 @@
 #include <tread/base/format.h>
 #include <tread/output/summary_keys.h>
 #include <tread/scene/parts.h>
+#include <tread/scene/recorded.h>
+#include <tread/scene/track_parts.h>
 #include <tread/simulation/recorders/stresses.h>
 #include <tread/track/supports.h>
 
@@ -343,7 +345,7 @@ namespace tread
 
   SeatRecorder::SeatRecorder(const Model &model)
     : model(model)
-    , seats(*model.supports, model.scene.recorded_supports(), model.scene.first_support())
+    , seats(*model.supports, recorded_supports(model.scene), first_support(model.scene))
   {
   }
 
@@ -366,7 +368,7 @@ namespace tread
             dealii::Point<3> centre;
             for (const unsigned int i : model.mesh.cells[c].nodes)
               centre += model.mesh.nodes[i] / 8.;
-            place = std::max(place, {{centre[0], centre[1], model.scene.depth_in_rail(centre)}});
+            place = std::max(place, {{centre[0], centre[1], depth_in_rail(model.scene, centre)}});
           }
       const auto places = dealii::Utilities::MPI::all_gather(model.comm, place);
       return *std::max_element(places.begin(), places.end());

@@ -2,6 +2,7 @@
 #include <tread/output/summary_keys.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/steady_damage_tables.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/simulation/recorders/surface_damage.h>
 
 #include <algorithm>
@@ -45,7 +46,7 @@ namespace tread
     report.summary.set("max_flash_temperature_K", hottest);
     if (const std::string doubt = doubt_of_temperature(model.scene, hottest); !doubt.empty())
       report.warnings.push_back(doubt);
-    if (!model.scene.wear_law())
+    if (!wear_law(model.scene))
       return;
     double volume = 0.;
     for (const SurfacePlace &place : rail)

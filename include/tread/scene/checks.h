@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef tread_scene_checks_h
+#define tread_scene_checks_h
+
+#include <tread/scene/scene.h>
+
+namespace tread
+{
+  // What of a scene does not make sense, by topic. All throw InputError, one line that names the parameters.
+
+  void check_motion(const Scene &scene);
+  void check_peak_stress(const Scene &scene);
+  void check_sector(const Scene &scene);
+  void check_plasticity(const Scene &scene);
+  void check_numerics(const Scene &scene);
+  void check_friction_by_temperature(const Scene &scene);
+  void check_track(const Scene &scene);
+  void check_wheelset(const Scene &scene);
+  /// What finite elements need beyond the half-space's answer. @pre scene.is_positioned()
+  void check_placed_mesh(const Scene &scene);
+  /// Of a rail from a mesh file.
+  void check_mesh_rail(const Scene &scene);
+  /// The change of its running surface, for messages.
+  std::string uneven_in_words(const Scene &scene);
+  /// Of a law of friction that falls with slip: a memory that is too short to keep slip from oscillating by
+  /// itself, one line; empty: none.
+  std::string short_memory(const Scene &scene);
+} // namespace tread
+
+#endif
