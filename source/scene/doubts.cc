@@ -381,7 +381,7 @@ namespace tread
     const double           a       = hertz(scene, scene.static_load()).semi_axis_x;
     double                 largest = 0.;
     const auto             look = [&](const double cell, const double from, const double to, const bool alike,
-                          const std::function<scene.double(double, double)> &height) {
+                          const std::function<double(double, double)> &height) {
       if (!(to > from))
         return;
       const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
@@ -398,7 +398,7 @@ namespace tread
                 of_node[i] = height(from + (k + i - 1. + 0.5) * cell, y);
               for (unsigned int j = 1; j < n_between; ++j)
                 {
-                  const double s        = scene.double(j) / n_between;
+                  const double s        = double(j) / n_between;
                   const double of_nodes = cubic_between(of_node, s);
                   const double off      = height(from + (k + s + 0.5) * cell, y) - of_nodes;
                   squares[k] += off * off / (n_between - 1.);
@@ -465,7 +465,7 @@ namespace tread
           of_node[i] = scene.surfaces().gap(y + (i - 1.) * cell);
         for (unsigned int k = 1; k < n_between; ++k)
           {
-            const double s = scene.double(k) / n_between; // Lagrange's cubic
+            const double s = double(k) / n_between; // Lagrange's cubic
             const double of_nodes =
               -s * (s - 1.) * (s - 2.) / 6. * of_node[0] + (s + 1.) * (s - 1.) * (s - 2.) / 2. * of_node[1] -
               (s + 1.) * s * (s - 2.) / 2. * of_node[2] + (s + 1.) * s * (s - 1.) / 6. * of_node[3];

@@ -54,7 +54,7 @@ namespace tread
     std::vector<std::string> tables_beside_the_path(const Scene &scene)
     {
       std::vector<std::string> lines;
-      if (!scene.shapes)
+      if (!scene.has_path())
         return lines;
       // More than any patch is long.
       constexpr double room = 0.05, largest_pressure = 5e9, least_pressure = 1e7; // m, Pa

@@ -157,6 +157,17 @@ namespace tread
     std::string defect_in_words() const;
 
 
+    /// With the values that laws and indices of damage declare for themselves.
+    dealii::ParameterHandler &declared_parameters() const
+    {
+      return handler;
+    }
+
+    /// Whether read() has laid the path on the rail; read_surfaces() does not.
+    bool has_path() const
+    {
+      return shapes != nullptr;
+    }
     unsigned int n_wheels() const
     {
       return 1 + further_wheels.distances.size();
