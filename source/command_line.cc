@@ -357,7 +357,7 @@ namespace tread
       older.resolve();
     else
       refuse_before_command(app);
-    Scene::refuse_repeated(line.settings);
+    ParameterFile::refuse_repeated(line.settings);
     return line;
   }
 } // namespace tread

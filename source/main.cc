@@ -42,9 +42,9 @@ namespace
         tread::Scene scene;
         scene.read(line.scene, line.settings, tread::SceneUse::roll);
         if (speaks && line.json)
-          scene.print_json(std::cout);
+          scene.parameters().print_json(std::cout);
         else if (speaks)
-          scene.print(std::cout, true);
+          scene.parameters().print(std::cout, true);
       }
     return line.command == Command::columns || line.command == Command::parameters;
   }

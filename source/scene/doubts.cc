@@ -113,8 +113,8 @@ namespace tread
       if (!scene.wheel.has_measured_profile())
         return "";
       const double given = scene.wheelset.track.back_position;
-      const auto   shown = read_measured_profile(scene.located(scene.wheel.tread_profile), ProfileBody::wheel,
-                                                 scene.wheel.profile_placement)
+      const auto   shown = read_measured_profile(scene.parameters().located(scene.wheel.tread_profile),
+                                                 ProfileBody::wheel, scene.wheel.profile_placement)
                            .flange_back;
       if (!shown || std::abs(given - *shown) <= tolerance)
         return "";
@@ -300,7 +300,7 @@ namespace tread
   std::vector<std::string> implausible_values(const Scene &scene, const bool stands_in_track)
   {
     std::vector<std::string> list;
-    for (const Scene::Parameter &parameter : scene.changed_values())
+    for (const ParameterFile::Parameter &parameter : scene.parameters().changed_values())
       for (const Usual &usual : usual_values)
         // Wheels of test rigs are as light as they are small.
         if (parameter.path == usual.path &&

@@ -45,7 +45,7 @@ namespace tread
                          const ProfileBody kind, const ProfilePlacement &placement) {
       try
         {
-          const auto       &read  = scene.files_read();
+          const auto       &read  = scene.parameters().files_read();
           const auto        found = std::find_if(read.begin(), read.end(), [&](const FileRead &of_scene) {
             return of_scene.parameter == parameter;
           });

@@ -107,7 +107,7 @@ namespace tread
       volumes.push_back(other.volume);
     try
       {
-        own            = std::make_shared<MeshRail>(read_mesh_file(located(rail.mesh_file), unit, volumes));
+        own = std::make_shared<MeshRail>(read_mesh_file(input.located(rail.mesh_file), unit, volumes));
         made.rail_mesh = own;
         require_size_of_rail(*made.rail_mesh, rail.mesh_unit);
       }
@@ -125,13 +125,14 @@ namespace tread
     constexpr double          inside  = 1e-6; // m
     made.rail_begin                   = surface.along().begin;
     require(std::min(-across.begin, across.end) >= 0.5 * narrowest_rail,
-            "'Rail/Mesh file': '" + located(rail.mesh_file) + "' has no contact surface about y = 0 at x = " +
-              text_in_mm(start) + " mm, where the wheel begins" +
+            "'Rail/Mesh file': '" + input.located(rail.mesh_file) +
+              "' has no contact surface about y = 0 at x = " + text_in_mm(start) +
+              " mm, where the wheel begins" +
               (across.begin < across.end ? ", but from y = " + from_to_in_mm(across.begin, across.end) : "") +
               "; it is there for x from " + from_to_in_mm(surface.along().begin, surface.along().end) +
               ": move the mesh, or 'Motion/Start (mm)'");
     const double z = *surface.height(start, 0.);
-    require(std::abs(z) <= highest_top, "'Rail/Mesh file': '" + located(rail.mesh_file) +
+    require(std::abs(z) <= highest_top, "'Rail/Mesh file': '" + input.located(rail.mesh_file) +
                                           "' has its top at z = " + text_in_mm(z) +
                                           " mm at y = 0 where the wheel "
                                           "begins, x = " +
@@ -189,8 +190,8 @@ namespace tread
   void check_mesh_rail(const Scene &scene)
   {
     const FacetSurface &surface = scene.rail_mesh()->surface;
-    const std::string   file    = "'Rail/Mesh file': '" + scene.located(scene.rail.mesh_file) + "' ";
-    const double        a       = hertz(scene, scene.static_load()).semi_axis_x,
+    const std::string file = "'Rail/Mesh file': '" + scene.parameters().located(scene.rail.mesh_file) + "' ";
+    const double      a    = hertz(scene, scene.static_load()).semi_axis_x,
                  from = scene.path_begin(scene.last_wheel()) - 3. * a, to = scene.meshed_end() + 3. * a;
     require(surface.along().begin <= from && surface.along().end >= to,
             file + "has a contact surface for x from " +

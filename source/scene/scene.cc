@@ -6,26 +6,26 @@ namespace tread
   Scene::Scene()
   {
     // In this order the parameters are printed.
-    general.declare(handler);
-    wheel.declare(handler);
-    wheelset.declare(handler);
-    guidance.declare(handler);
-    rail.declare(handler);
-    defect.declare(handler);
-    mesh.declare(handler);
-    solid.declare(handler);
-    contact.declare(handler);
-    track.declare(handler);
-    vehicle.declare(handler);
-    motion.declare(handler);
-    further_wheels.declare(handler);
-    time_stepping.declare(handler);
-    start.declare(handler);
-    output.declare(handler);
-    peak_stress.declare(handler);
-    ratcheting.declare(handler);
-    damage.declare(handler);
-    profile_wear.declare(handler);
-    watchdogs.declare(handler);
+    general.declare(input.entries());
+    wheel.declare(input.entries());
+    wheelset.declare(input.entries());
+    guidance.declare(input.entries());
+    rail.declare(input.entries());
+    defect.declare(input.entries());
+    mesh.declare(input.entries());
+    solid.declare(input.entries());
+    contact.declare(input.entries());
+    track.declare(input.entries());
+    vehicle.declare(input.entries());
+    motion.declare(input.entries());
+    further_wheels.declare(input.entries());
+    time_stepping.declare(input.entries());
+    start.declare(input.entries());
+    output.declare(input.entries());
+    peak_stress.declare(input.entries());
+    ratcheting.declare(input.entries());
+    damage.declare(input.entries());
+    profile_wear.declare(input.entries());
+    watchdogs.declare(input.entries());
   }
 } // namespace tread

@@ -99,11 +99,11 @@ namespace tread
 
   std::shared_ptr<const FrictionLaw> friction_law(const Scene &scene)
   {
-    const Section section(scene.declared_parameters(), "Contact");
+    const Section section(scene.parameters().entries(), "Contact");
     try
       {
         const auto law = make_friction_law(scene.contact.friction_law, scene.contact.friction_coefficient,
-                                           scene.declared_parameters());
+                                           scene.parameters().entries());
         if (law->memory().distance >= 0.)
           return law;
         return std::make_shared<RememberingFriction>(
@@ -162,10 +162,10 @@ namespace tread
 
   DamageIndices indices_of_damage(const Scene &scene)
   {
-    const Section section(scene.declared_parameters(), "Damage");
+    const Section section(scene.parameters().entries(), "Damage");
     DamageIndices indices;
     for (const DamageIndexEntry &entry : damage_indices())
-      if (auto index = entry.make(scene.declared_parameters()))
+      if (auto index = entry.make(scene.parameters().entries()))
         indices.emplace_back(entry.key, std::move(index));
     return indices;
   }
@@ -173,8 +173,8 @@ namespace tread
 
   std::shared_ptr<const WearLaw> wear_law(const Scene &scene)
   {
-    const Section section(scene.declared_parameters(), "Damage");
-    return entry_named(wear_laws(), scene.damage.wear_law, "wear law").make(scene.declared_parameters());
+    const Section section(scene.parameters().entries(), "Damage");
+    return entry_named(wear_laws(), scene.damage.wear_law, "wear law").make(scene.parameters().entries());
   }
 
 

@@ -31,15 +31,6 @@ namespace tread
   } // namespace
 
 
-  std::string Scene::located(const std::string &file) const
-  {
-    std::error_code cannot_tell; // of a name that no file can have
-    return !std::filesystem::exists(file, cannot_tell) && std::filesystem::exists(folder / file, cannot_tell)
-             ? (folder / file).string()
-             : file;
-  }
-
-
   void Scene::note_files()
   {
     std::error_code cannot_tell;
@@ -49,15 +40,15 @@ namespace tread
           std::pair("Rail/Slices", rail.slices), std::pair("Rail/Mesh file", rail.mesh_file),
           std::pair("Defect/Profile file", defect.profile_file), std::pair("Guidance/File", guidance.file),
           std::pair("Track/Support file", track.support_file), std::pair("Track/Beam file", track.beam_file)})
-      if (const std::string path = located(file);
+      if (const std::string path = input.located(file);
           !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
         {
-          read_files.push_back(file_read(name, path));
+          input.note(name, path);
           // A slice may stand in a list more than once.
           const std::vector<std::string> named = slices_named_in(path);
           for (const std::string &slice : std::set<std::string>(named.begin(), named.end()))
-            read_files.push_back(file_read(std::string(name) + ": " + slice,
-                                           (std::filesystem::path(path).parent_path() / slice).string()));
+            input.note(std::string(name) + ": " + slice,
+                       (std::filesystem::path(path).parent_path() / slice).string());
         }
   }
 
@@ -79,7 +70,7 @@ namespace tread
   void Scene::make_shapes()
   {
     const auto made = make_path();
-    made->defect    = defect.make(located(defect.profile_file));
+    made->defect    = defect.make(input.located(defect.profile_file));
     shape_wheel(*made);
     rail.is_meshed() ? shape_mesh_rail(*made) : shape_rail(*made);
     made->contact           = tread::first_contact(made->surfaces, made->path_begin);
@@ -119,7 +110,7 @@ namespace tread
     try
       {
         if (const auto offset =
-              tread_offset(located(wheel.tread_profile),
+              tread_offset(input.located(wheel.tread_profile),
                            running_half_width + std::abs(wheel.lateral_position), wheel.profile_placement))
           surfaces.tread_offset = [offset, y_circle = wheel.lateral_position](const double y) {
             return offset(y - y_circle);
@@ -138,12 +129,12 @@ namespace tread
               "(mm)', which "
               "move the profile alone, must be false and 0");
     const auto round = [&] {
-      return wheel_curve(located(wheel.tread_profile), wheel.profile_placement);
+      return wheel_curve(input.located(wheel.tread_profile), wheel.profile_placement);
     };
     try
       {
         const auto more =
-          wheel_deviation(located(wheel.deviation), round, wheel.radius, wheel.deviation_smoothing);
+          wheel_deviation(input.located(wheel.deviation), round, wheel.radius, wheel.deviation_smoothing);
         made.deviation     = more->in_words();
         surfaces.deviation = [more, pitch = wheel.deviation_pitch,
                               y_circle = wheel.lateral_position](const double angle, const double y) {
@@ -180,7 +171,7 @@ namespace tread
         if (!rail.measured_head.empty())
           try
             {
-              const MeasuredLine line = read_rail_head(located(rail.measured_head), running_half_width,
+              const MeasuredLine line = read_rail_head(input.located(rail.measured_head), running_half_width,
                                                        least_half_head, rail.head_placement);
               surfaces.half_width     = std::min({running_half_width, -line.begin(), line.end()});
               height                  = [line, nominal, edge](const double y) {

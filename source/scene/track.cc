@@ -170,7 +170,8 @@ namespace tread
        {"ballast_stiffness_MN_per_m", &Springs::ballast_stiffness, 1e6, 0., true},
        {"ballast_damping_kN_s_per_m", &Springs::ballast_damping, 1e3, 0., true},
        {"ballast_gap_mm", &Springs::ballast_gap, 1e-3, 0., true}}};
-    const std::string file = located(track.support_file), begin = named_file("Track/Support file", file);
+    const std::string file  = input.located(track.support_file),
+                      begin = named_file("Track/Support file", file);
     std::vector<std::string> names{"support"};
     for (const Column &column : columns)
       names.push_back(column.name);
@@ -215,8 +216,8 @@ namespace tread
        {"bending_stiffness_MN_m2", &BeamRow::bending_stiffness, 1e6, 1e-3, 1e3},
        {"shear_stiffness_MN", &BeamRow::shear_stiffness, 1e6, 1e-1, 1e5},
        {"mass_kg_per_m", &BeamRow::mass, 1., 1e-1, 1e4}}};
-    constexpr double         least_length = 5e-3; // m: shorter elements need shorter steps
-    const std::string        file = located(track.beam_file), begin = named_file("Track/Beam file", file);
+    constexpr double  least_length = 5e-3; // m: shorter elements need shorter steps
+    const std::string file = input.located(track.beam_file), begin = named_file("Track/Beam file", file);
     std::vector<std::string> names;
     for (const Column &column : columns)
       names.push_back(column.name);

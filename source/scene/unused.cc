@@ -307,7 +307,7 @@ namespace tread
              (path == "Defect/Length (mm)" || path == "Defect/Position (mm)" || path == "Defect/Width (mm)");
     };
     std::vector<std::string> unused;
-    for (const std::string &path : changed_parameters())
+    for (const auto &[path, value] : input.changed_values())
       for (const Group &group : groups)
         if (!group.counts && concerns(group, path) && !places_region(path))
           {

@@ -109,7 +109,7 @@ namespace tread
     const auto wheel_profile = [&] {
       try
         {
-          return wheel_curve(located(wheel.tread_profile), wheel.profile_placement);
+          return wheel_curve(input.located(wheel.tread_profile), wheel.profile_placement);
         }
       catch (const std::runtime_error &error)
         {
@@ -121,7 +121,7 @@ namespace tread
         return rail_curve(rail.standard_profile());
       try
         {
-          return measured_rail_curve(located(rail.measured_head), rail.head_placement);
+          return measured_rail_curve(input.located(rail.measured_head), rail.head_placement);
         }
       catch (const std::runtime_error &error)
         {
@@ -131,7 +131,7 @@ namespace tread
     const auto sliced_rail = [&] {
       try
         {
-          return std::make_shared<const SlicedRail>(read_rail_slices(located(rail.slices)));
+          return std::make_shared<const SlicedRail>(read_rail_slices(input.located(rail.slices)));
         }
       catch (const InputError &error)
         {

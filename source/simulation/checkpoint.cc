@@ -81,7 +81,7 @@ namespace tread
   std::string Checkpoint::parameters() const
   {
     std::ostringstream text;
-    scene.print(text, false);
+    scene.parameters().print(text, false);
     const std::string all = text.str();
     // At the beginning of a line: a value may have the same words.
     const auto section = [&all](const std::string &name) {
@@ -92,7 +92,7 @@ namespace tread
     for (const int number : scene.output.supports)
       supports += (supports.empty() ? "" : ",") + std::to_string(number);
     std::string contents;
-    for (const FileRead &file : scene.files_read())
+    for (const FileRead &file : scene.parameters().files_read())
       if (!file.is_scene())
         contents +=
           "contents of '" + file.parameter + "' with the checksum " + std::to_string(file.crc32) + "\n";
@@ -201,7 +201,7 @@ namespace tread
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         std::stringstream all;
-        scene.print(all, false);
+        scene.parameters().print(all, false);
         const std::string distance = "Motion/Rolled distance (mm)"; // not among those of a run that may go on
         const auto of_run = settings_in(std::istringstream(text_of_file(folder.path("parameters.prm"))));
         auto       now    = settings_in(std::istringstream(parameters()));
@@ -219,8 +219,9 @@ namespace tread
                       name + "' " + before->second + ", now " + value + "; without --resume it starts anew";
         if (problem.empty())
           {
-            const FilesCompared files = compare_files(
-              files_in_comments(text_of_file(folder.path("parameters.prm"))), scene.files_read());
+            const FilesCompared files =
+              compare_files(files_in_comments(text_of_file(folder.path("parameters.prm"))),
+                            scene.parameters().files_read());
             if (!files.unlike.empty())
               problem = "--resume: the run in '" + folder.path("") +
                         "' is complete, and was made with other contents: " + files.unlike +

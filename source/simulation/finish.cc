@@ -137,7 +137,7 @@ namespace tread
                 n_ranks * double(max(model.mesh.cells.size(), comm)) / model.mesh.n_global_cells);
     summary.set("ranks_of_contact", max(model.contact.n_sweeping_ranks(), comm));
     summary.set("version", version());
-    summary.set("files", as_json(scene.files_read()));
+    summary.set("files", as_json(scene.parameters().files_read()));
   }
 
 
@@ -234,7 +234,7 @@ namespace tread
     const RunFolder                                 &folder = report.folder;
     std::vector<std::pair<std::string, std::string>> parameters;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      for (const Scene::Parameter &parameter : Scene::parameters_in(folder.path("parameters.prm")))
+      for (const ParameterFile::Parameter &parameter : Scene::parameters_in(folder.path("parameters.prm")))
         parameters.emplace_back(parameter.path, parameter.value);
     folder.write_hdf5(report.summary.text(), parameters);
     // Last but for the pictures, which are there: it says that the run is complete.

@@ -93,7 +93,7 @@ namespace tread
       // Nothing is refused any more.
       if (resume && folder.is_complete())
         folder.remove_solution();
-      folder.write("parameters.prm", scene.parameters_of_run());
+      folder.write("parameters.prm", scene.parameters().of_run());
       MeasuredProfiles(scene).write(folder);
     }
 

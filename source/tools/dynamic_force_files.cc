@@ -69,9 +69,9 @@ namespace tread
     /// warning where that is not so, or not sure; else ""
     std::string compare_parameters(const std::string &run, const std::string &twin)
     {
-      const std::vector<Scene::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
-                                          of_twin = Scene::parameters_in(twin + "/parameters.prm");
-      bool has_cause                              = false;
+      const std::vector<ParameterFile::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
+                                                  of_twin = Scene::parameters_in(twin + "/parameters.prm");
+      bool has_cause                                      = false;
       for (std::size_t i = 0; i < of_run.size(); ++i)
         {
           const std::string &path = of_run[i].path;
@@ -101,7 +101,7 @@ namespace tread
         return "whether " + run + " and " + twin + " have read the same file of '" + files.unknown +
                "' is not known: parameters.prm of one of them does not say what it contained";
       const auto of_twin_is = [&](const std::string &path, const std::string &value) {
-        return std::any_of(of_twin.begin(), of_twin.end(), [&](const Scene::Parameter &parameter) {
+        return std::any_of(of_twin.begin(), of_twin.end(), [&](const ParameterFile::Parameter &parameter) {
           return parameter.path == path && same(parameter.value, value);
         });
       };

@@ -567,7 +567,7 @@ namespace tread
 
     RunFolder folder(path, comm);
     folder.remove_results();
-    folder.write("parameters.prm", scene.parameters_of_run());
+    folder.write("parameters.prm", scene.parameters().of_run());
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
     Writer                             writer(scene, mesh, folder, progress);
     const std::vector<ElasticMaterial> material   = materials(scene);

@@ -276,11 +276,11 @@ namespace tread
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
-    summary.set("files", as_json(scene.files_read()));
+    summary.set("files", as_json(scene.parameters().files_read()));
 
     RunFolder folder(path, comm, scene.output.pictures);
     folder.remove_results();
-    folder.write("parameters.prm", scene.parameters_of_run());
+    folder.write("parameters.prm", scene.parameters().of_run());
     const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
     folder.write_table("patch.csv", patch_columns(), nodes);
     write_steady_damage(scene, {{nodes, scene.motion.speed * (1. + answer.creepage)}}, folder, summary,

@@ -449,7 +449,7 @@ namespace tread
     /// Those of the scene, and the table.
     std::vector<FileRead> files_of(const Scene &scene, const std::string &contacts)
     {
-      std::vector<FileRead> files = scene.files_read();
+      std::vector<FileRead> files = scene.parameters().files_read();
       files.push_back(file_read("tread wear", contacts));
       return files;
     }
@@ -458,7 +458,7 @@ namespace tread
     std::string inputs(const Scene &scene, const std::string &contacts)
     {
       std::string text;
-      for (const Scene::Parameter &parameter : scene.changed_values())
+      for (const ParameterFile::Parameter &parameter : scene.parameters().changed_values())
         if (parameter.path.rfind("Output/", 0) != 0)
           text += parameter.path + '=' + parameter.value + '\n';
       for (const FileRead &file : files_of(scene, contacts))
@@ -567,7 +567,7 @@ namespace tread
       }
     else
       folder.remove_results();
-    folder.write("parameters.prm", scene.parameters_of_run());
+    folder.write("parameters.prm", scene.parameters().of_run());
 
     progress.say("tread " + version() + (scene.general.title.empty() ? "" : ": " + scene.general.title));
     progress.say(

@@ -56,11 +56,11 @@ namespace tread
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
     summary.set("version", version());
-    summary.set("files", as_json(scene.files_read()));
+    summary.set("files", as_json(scene.parameters().files_read()));
 
     RunFolder folder(path, comm);
     folder.remove_results();
-    folder.write("parameters.prm", scene.parameters_of_run());
+    folder.write("parameters.prm", scene.parameters().of_run());
     folder.write_table("patch.csv", patch_columns(), placed.table_nodes());
     std::vector<PassedPatch> passed;
     for (const WheelPatch &patch : contact.patches)

@@ -177,7 +177,7 @@ namespace tread::fuzz
       Scene scene;
       scene.read(file, {});
       std::ostringstream text;
-      scene.print(text, true);
+      scene.parameters().print(text, true);
       scene.unused_parameters();
       assumptions(scene);
       friction_law(scene);
@@ -195,7 +195,7 @@ namespace tread::fuzz
         settings.push_back(line);
       Scene scene;
       scene.read_surfaces("", settings);
-      scene.changed_parameters();
+      scene.parameters().changed_values();
     }
 
     void read_batch(const std::string &file)

@@ -237,7 +237,7 @@ def scene_errors(path: str, schema: dict | None = None, depth: int = 0) -> Itera
 
 
 def not_among(name: str, known: Iterable[str]) -> str:
-    """What is said of a parameter that there is not, with the one that was most likely meant, as the program finds it: source/scene/input.cc."""
+    """What is said of a parameter that there is not, with the one that was most likely meant, as the program finds it: source/scene/parameter_file.cc."""
     own, bare = name_in_section(name), name.partition(" (")[0]
     # The right name in another section is the likeliest slip.
     close = min(known, key=lambda path: min(edit_distance(name, path), edit_distance(bare, path.partition(" (")[0]) + 1,

@@ -4,8 +4,8 @@
 
 #include <tread/geometry/running_surfaces.h>
 #include <tread/mesh/mesh_rail.h>
-#include <tread/scene/files_read.h>
 #include <tread/scene/islands.h>
+#include <tread/scene/parameter_file.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/sections/contact.h>
 #include <tread/scene/sections/damage.h>
@@ -34,7 +34,6 @@
 #include <tread/track/supports.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <string>
 
@@ -89,28 +88,17 @@ namespace tread
     /// sections.
     void read_surfaces(const std::string &file, const std::vector<std::string> &settings);
 
-    /// @throws InputError where one parameter is given twice, of which one value would be lost.
-    static void refuse_repeated(const std::vector<std::string> &settings);
-
-    /// All parameters with their values, units, ranges and meaning, as a parameter file.
-    void print(std::ostream &out, const bool with_documentation) const;
-    /// The same as deal.II's JSON: of each the value, the default, the documentation and the pattern.
-    void print_json(std::ostream &out) const;
-
-    /// Parameters (Section/Name) that are not what they are without being set.
-    std::vector<std::string> changed_parameters() const;
-    /// Those among them that another parameter leaves without effect, one line each, with what they need.
-    std::vector<std::string> unused_parameters() const;
-
-    struct Parameter
+    /// What was read: all parameters as text, the changed ones, the files.
+    const ParameterFile &parameters() const
     {
-      std::string path, value; ///< Section/Name
-    };
-    /// The changed parameters with their values.
-    std::vector<Parameter> changed_values() const;
+      return input;
+    }
     /// All parameters of a scene with this parameter file, in the order of declaration. Only names and ranges
     /// are checked. @throws InputError
-    static std::vector<Parameter> parameters_in(const std::string &file);
+    static std::vector<ParameterFile::Parameter> parameters_in(const std::string &file);
+    /// Those among the changed ones that another parameter leaves without effect, one line each, with what
+    /// they need.
+    std::vector<std::string> unused_parameters() const;
 
     /// Weight that rests on the contact of each wheel, N.
     double static_load() const
@@ -140,14 +128,6 @@ namespace tread
     Across across(const double time) const;
 
 
-    /// Files that the scene has read, its parameter files first, with their contents as they were then.
-    const std::vector<FileRead> &files_read() const
-    {
-      return read_files;
-    }
-    /// parameters.prm of a run: all parameters, and the files that it has read.
-    std::string parameters_of_run() const;
-
     /// Whether the measured head ends, at one side, before what is searched for contact:
     /// surfaces().half_width.
     bool has_narrow_head() const;
@@ -156,12 +136,6 @@ namespace tread
     /// Where the defect lies and how deep, and what the wheel is not round by, one line; empty: neither.
     std::string defect_in_words() const;
 
-
-    /// With the values that laws and indices of damage declare for themselves.
-    dealii::ParameterHandler &declared_parameters() const
-    {
-      return handler;
-    }
 
     /// Whether read() has laid the path on the rail; read_surfaces() does not.
     bool has_path() const
@@ -298,8 +272,6 @@ namespace tread
     {
       return wheel.radius + first_contact().lift;
     }
-    /// Path of a file named by a parameter: as given, or relative to the folder of the parameter file.
-    std::string located(const std::string &file) const;
     /// Of 'Track/Support file', by the number of the support.
     const std::map<int, TrackParameters::Springs> &springs_of_supports() const
     {
@@ -353,10 +325,6 @@ namespace tread
     {
       return number == 0 ? 0. : further_wheels.distances[number - 1];
     }
-    /// Read the files that it includes, then its own lines, which therefore have the last word.
-    /// @param depth of files that include each other. @throws InputError
-    void parse(const std::string &file, const unsigned int depth = 0);
-    void set(const std::string &setting);
     void check(const SceneUse use) const;
     /// Note the files that parameters name, with their contents.
     void note_files();
@@ -376,11 +344,8 @@ namespace tread
     /// @param islands of the patch, found with it
     PatchExtent patch_under_load(std::vector<Island> &islands) const;
 
-    mutable dealii::ParameterHandler handler;
-    std::filesystem::path            folder; ///< of the parameter file
-    std::vector<FileRead>            read_files;
-    bool                             sets_something = false; ///< the parameter file, or one that it includes
-    std::shared_ptr<const Shapes>    shapes;
+    ParameterFile                              input;
+    std::shared_ptr<const Shapes>              shapes;
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
     std::vector<BeamRow>                       beam_rows;
