@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/input_error.h>
 #include <tread/base/quiet_boost.h>
+#include <tread/geometry/profile_names.h>
 #include <tread/scene/parameter_file.h>
 
 #include <boost/property_tree/json_parser.hpp>

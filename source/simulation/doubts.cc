@@ -59,13 +59,13 @@ namespace tread
 
   std::vector<std::string> doubts_at_start(const Model &model)
   {
-    std::vector<std::string> doubts = MeasuredProfiles(model.scene).warnings(false);
+    std::vector<std::string> list = MeasuredProfiles(model.scene).warnings(false);
     for (const std::string &doubt : doubts(model.scene))
-      doubts.push_back(doubt);
+      list.push_back(doubt);
     for (const std::string &doubt : {unseen_detail(model.scene), slow_step(model.dynamics)})
       if (!doubt.empty())
-        doubts.push_back(doubt);
-    return doubts;
+        list.push_back(doubt);
+    return list;
   }
 
 

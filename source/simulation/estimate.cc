@@ -266,17 +266,17 @@ namespace tread
       OtherWindows found;
       if (!has_window(scene) || !has_cubes(scene))
         return found;
-      const auto   windows    = windows(scene);
+      const auto   in_turn    = windows(scene);
       const double margin     = window_margin(scene);
       const auto   with_cubes = [&](const Scene::Range &window) {
         return cubes(scene).begin < window.end + margin && cubes(scene).end > window.begin - margin;
       };
-      for (unsigned int k = 1; k < windows.size(); ++k)
-        if (with_cubes(windows[k]) != with_cubes(windows[0]))
+      for (unsigned int k = 1; k < in_turn.size(); ++k)
+        if (with_cubes(in_turn[k]) != with_cubes(in_turn[0]))
           {
             if (found.share == 0.)
-              found.first = {k, windows[k].begin - windows.front().begin};
-            found.share += (windows[k].end - windows[k].begin) / (windows.back().end - windows.front().begin);
+              found.first = {k, in_turn[k].begin - in_turn.front().begin};
+            found.share += (in_turn[k].end - in_turn[k].begin) / (in_turn.back().end - in_turn.front().begin);
           }
       return found;
     }
@@ -301,16 +301,16 @@ namespace tread
                                       share * of(in_others) + rows * pace.row) +
              beside_steps;
     };
-    std::vector<std::string> doubts = doubts(scene);
+    std::vector<std::string> found = doubts(scene);
     if (const std::string unseen = unseen_detail(scene); !unseen.empty())
-      doubts.push_back(unseen);
+      found.push_back(unseen);
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         for (const std::string &unused : scene.unused_parameters())
           std::printf("WARNING: %s\n", unused.c_str());
         if (const std::string defect = scene.defect_in_words(); !defect.empty())
           std::printf("%s\n", defect.c_str());
-        for (const std::string &doubt : doubts)
+        for (const std::string &doubt : found)
           std::printf("WARNING: %s\n", doubt.c_str());
         if (has_window(scene))
           std::printf(
