@@ -44,7 +44,7 @@ namespace tread
   Simulation::Simulation(const Scene &scene, const MPI_Comm comm, const WindowPlace &window)
     : window(window)
     , scene(scene)
-    , windows(windows(scene))
+    , windows(tread::windows(scene))
     , comm(comm)
     , model(scene, comm, window)
     , added_mass(model.added_mass())
