@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "overlap_search.h"
 
+#include <tread/base/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -82,7 +84,10 @@ namespace tread
       if (extent.includes(position.along + coarse_step * k * line_spacing))
         coarse.push_back(coarse_step * k);
     if (coarse.empty())
-      throw std::runtime_error("the wheel stands beyond the ends of the rail's slices");
+      throw std::runtime_error("the wheel stands at " + text_in_mm(position.along) +
+                               " mm, beyond the ends of the rail's slices, which reach from " +
+                               text_in_mm(extent.along_begin) + " to " + text_in_mm(extent.along_end) +
+                               " mm");
   }
 
 

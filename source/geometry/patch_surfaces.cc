@@ -188,7 +188,7 @@ namespace tread
     if (!found.curve) // beyond the rail's ends
       return known_rail[where] = {-where_no_rail, 0., 0., false};
     const ProfileCurve::Place p = found.curve->at(found.parameter);
-    return known_rail[where]    = {above({0., p.y, p.z}), std::atan2(p.dz, p.dy), found.parameter, found.exists};
+    return known_rail[where] = {above({0., p.y, p.z}), std::atan2(p.dz, p.dy), found.parameter, found.exists};
   }
 
 

@@ -62,7 +62,7 @@ namespace tread
   {
     const auto &all = rail.slices;
     require(all.size() >= 2, "'" + rail.file + "' has " + std::to_string(all.size()) +
-                               " slices; a surface needs at least two");
+                               (all.size() == 1 ? " slice" : " slices") + "; a surface needs at least two");
     std::size_t n_breaks = 0;
     for (const RailSlice &slice : all)
       {
@@ -116,6 +116,11 @@ namespace tread
       require(all[i + 1].x - all[i].x >= closest * (all.back().x - all.front().x) / (all.size() - 1),
               "'" + rail.file + "': slices at " + format("%.9g", 1e3 * all[i].x) + " and " +
                 format("%.9g", 1e3 * all[i + 1].x) + " mm are at the same place: is one there twice?");
+    constexpr double shortest = 2e-3; // m, of the way and across
+    for (const auto &[what, size] : {std::pair("slices reach over ", all.back().x - all.front().x),
+                                     std::pair("sections are as wide as ", known.y_end - known.y_begin)})
+      require(size >= shortest,
+              "'" + rail.file + "': its " + what + text_in_mm(size) + " mm: are its numbers in mm?");
     known.along_begin = all.front().x;
     known.along_end   = all.back().x;
 

@@ -16,28 +16,70 @@ namespace tread
   {
     using Point = dealii::Point<2>;
 
-    /// z up and y from low to high. Most of a rail's surface lies near its top, so that the end further from
-    /// the median height is the lower one.
+    /// Twice the area between a line from low to high y and the chord of its ends, positive where the line
+    /// lies above it, m^2.
+    double twice_area_below(const std::vector<Point> &line)
+    {
+      double area = 0.;
+      for (std::size_t k = 0; k < line.size(); ++k)
+        {
+          const Point &a = line[k], &b = line[(k + 1) % line.size()];
+          area += b[0] * a[1] - a[0] * b[1];
+        }
+      return area;
+    }
+
+    /// How wide a section is within an eighth of its height from its top over the same at its bottom.
+    double width_of_top_over_bottom(const std::vector<Point> &points)
+    {
+      constexpr double share = 0.125;
+      const auto [low, high] = std::minmax_element(
+        points.begin(), points.end(), [](const Point &a, const Point &b) { return a[1] < b[1]; });
+      const double height = (*high)[1] - (*low)[1];
+      const auto   width  = [&](const double from, const double to) {
+        double begin = std::numeric_limits<double>::max(), end = -begin;
+        for (const Point &p : points)
+          if (p[1] >= from && p[1] <= to)
+            {
+              begin = std::min(begin, p[0]);
+              end   = std::max(end, p[0]);
+            }
+        return end - begin;
+      };
+      return width((*high)[1] - share * height, (*high)[1]) / width((*low)[1], (*low)[1] + share * height);
+    }
+
+    /// z up and y from low to high. The steel lies below an open line from low to high y. A line that is
+    /// closed, or nearly so, goes round a foot, which is wider than the head.
     void set_upright(RailSlices &rail)
     {
-      std::vector<double> heights;
-      for (const RailSlice &slice : rail.slices)
-        for (const Point &p : slice.points)
-          heights.push_back(p[1]);
-      std::sort(heights.begin(), heights.end());
-      const double median = heights[heights.size() / 2];
-      if (heights.back() - median > median - heights.front())
-        for (RailSlice &slice : rail.slices)
-          for (Point &p : slice.points)
-            p[1] = 0. - p[1];
       for (RailSlice &slice : rail.slices)
-        if (slice.points.back()[0] < slice.points.front()[0])
+        if (!slice.points.empty() && slice.points.back()[0] < slice.points.front()[0])
           {
             require(slice.breaks.empty(), "'" + rail.file + "', slice at " + text_in_mm(slice.x) +
                                             " mm: points of a slice that is cut must run from low to high y");
             std::reverse(slice.points.begin(), slice.points.end());
             std::reverse(slice.bodies.begin(), slice.bodies.end());
           }
+      constexpr double nearly = 0.25; // of the width
+      double           up     = 0.;   // more slices for it than against it
+      for (const RailSlice &slice : rail.slices)
+        if (slice.points.size() > 2)
+          {
+            const auto [low, high] =
+              std::minmax_element(slice.points.begin(), slice.points.end(),
+                                  [](const Point &a, const Point &b) { return a[0] < b[0]; });
+            const bool is_closed =
+              slice.points.back()[0] - slice.points.front()[0] < nearly * ((*high)[0] - (*low)[0]);
+            up += (is_closed ? width_of_top_over_bottom(slice.points) <= 1.
+                             : twice_area_below(slice.points) >= 0.)
+                    ? 1.
+                    : -1.;
+          }
+      if (up < 0.)
+        for (RailSlice &slice : rail.slices)
+          for (Point &p : slice.points)
+            p[1] = 0. - p[1];
     }
 
     /// A table with a row for each point.
@@ -88,7 +130,7 @@ namespace tread
                 {
                   if (now < before)
                     fail(row, "part " + text_of(part[row]) + " comes after part " + text_of(part[row - 1]) +
-                                "; numbers must grow along a slice");
+                                "; numbers must grow along a slice, which must be there once");
                   if (!begins && now > before + 1)
                     fail(row, "part " + text_of(part[row - 1] + 1.) + " is missing between its neighbours");
                   slice.breaks[now - 1] = length;

@@ -128,10 +128,11 @@ namespace tread
         if (is_given && c.slip_friction)
           throw InputError(name + " with " + law + " has no half-space answer");
       }
-    if (c.prescribe_force && c.traction_coefficient != 0. && std::abs(c.traction_coefficient) >= c.friction)
+    const double carried = c.friction * (c.place_factor ? mean_factor_across(scene) : 1.);
+    if (c.prescribe_force && c.traction_coefficient != 0. && std::abs(c.traction_coefficient) >= carried)
       throw InputError(traction + " is not below the friction coefficient in size, which is " +
-                       text_of(c.friction) +
-                       " there by 'Contact/Friction coefficient' and 'Contact/Friction factors'");
+                       text_of(carried) +
+                       " there by 'Contact/Friction coefficient' and the tables of its factors");
     try
       {
         return reference::estimate_rolling(c);

@@ -4,9 +4,12 @@
 #include <tread/geometry/rail_slices.h>
 
 #include "check.h"
+#include "temporary_folder.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <functional>
 #include <random>
 
 using namespace tread;
@@ -36,11 +39,17 @@ namespace
       }
   }
 
+  /// Whether a slice is named, by itself or with its neighbours.
   bool names(const std::string &said, const RailSlice &slice)
   {
-    char place[40];
-    std::snprintf(place, sizeof place, "slice at %g mm", 1e3 * slice.x);
-    return said.find(place) != said.npos;
+    const double x = 1e3 * slice.x;
+    double       from, to;
+    if (const std::size_t at = said.find("the slice at "); at != said.npos)
+      return std::sscanf(said.c_str() + at, "the slice at %lf mm", &from) == 1 && std::abs(from - x) < 1e-3;
+    if (const std::size_t at = said.find("the slices at "); at != said.npos)
+      return std::sscanf(said.c_str() + at, "the slices at %lf to %lf mm", &from, &to) == 2 &&
+             from < x + 1e-3 && to > x - 1e-3;
+    return false;
   }
 
   /// Moves the points of a slice, and the places where it is cut with them.
@@ -108,8 +117,9 @@ namespace
     check.that("nothing is said of the sound slices: " + said_of(sound), said_of(sound).empty());
     constexpr unsigned int drawn = 20;
     Random                 random(7);
-    // Of 200 that were drawn 42, 78 and 98 % were named: two standard deviations of the share of 20 below.
-    for (const auto &[size, least] : {std::pair(0.02e-3, 0.2), std::pair(0.1e-3, 0.6), std::pair(1e-3, 0.9)})
+    // Of 200 that were drawn 51, 90 and 98 % were named, and 1, 4 and 0 % beside the one that was wrong: two
+    // standard deviations of 20 below and above.
+    for (const auto &[size, least] : {std::pair(0.05e-3, 0.25), std::pair(0.3e-3, 0.7), std::pair(1e-3, 0.9)})
       {
         unsigned int found = 0, others = 0;
         for (unsigned int k = 0; k < drawn; ++k)
@@ -127,7 +137,7 @@ namespace
         std::snprintf(what, sizeof what,
                       "one slice wrong by %g mm at most: %u of %u are named, another %u times", 1e3 * size,
                       found, drawn, others);
-        check.that(what, found >= least * drawn && others <= 1);
+        check.that(what, found >= least * drawn && others <= 3);
       }
     unsigned int inches = 0, missing = 0;
     for (std::size_t i = 0; i < sound.slices.size(); ++i)
@@ -144,6 +154,126 @@ namespace
     check.that("a slice that is missing: " + std::to_string(missing) + " of " +
                  std::to_string(sound.slices.size()),
                missing + 6 >= sound.slices.size());
+  }
+
+
+  void neighbours_that_are_wrong(tests::Check &check, const RailSlices &sound)
+  {
+    constexpr unsigned int drawn = 12;
+    Random                 random(3);
+    unsigned int           pairs = 0, exchanged = 0;
+    for (unsigned int k = 0; k < drawn; ++k)
+      {
+        RailSlices        rail  = sound;
+        const std::size_t first = 1 + random() % (rail.slices.size() - 3);
+        const double      up    = 0.5e-3;
+        for (const std::size_t i : {first, first + 1})
+          change(rail.slices[i], [&](const Point &p) { return Point(p[0], p[1] + up); });
+        pairs += said_of(rail).find("the slices at") != std::string::npos;
+        rail = sound;
+        std::swap(rail.slices[first], rail.slices[first + 1]);
+        std::swap(rail.slices[first].x, rail.slices[first + 1].x);
+        exchanged += !said_of(rail).empty();
+      }
+    // Regression: of all 35 pairs 27, and 31 that are exchanged.
+    check.that("two neighbours 0.5 mm too high: " + std::to_string(pairs) + " of 12 are named", pairs >= 7);
+    check.that("exchanged: of " + std::to_string(exchanged) + " of 12 something is said", exchanged >= 8);
+  }
+
+
+  /// A head of 300 mm radius at each x, moved by what a shape says.
+  RailSlices designed(const std::vector<double> &places, const std::function<Point(double, Point)> &shape)
+  {
+    RailSlices rail{"a design", {}};
+    for (const double x : places)
+      {
+        rail.slices.push_back({x, {}, {}, {}});
+        for (int i = -60; i <= 60; ++i)
+          {
+            const double y = 0.5e-3 * i;
+            rail.slices.back().points.push_back(shape(x, Point(y, -y * y / 0.6)));
+          }
+      }
+    return rail;
+  }
+
+
+  void honest_shapes(tests::Check &check)
+  {
+    std::vector<double> places;
+    for (int i = 0; i <= 25; ++i)
+      places.push_back(20e-3 * i);
+    const auto silent = [&](const std::string &what, const std::function<Point(double, Point)> &shape,
+                            const std::vector<double> &at) {
+      const std::string said = said_of(designed(at, shape));
+      check.that(what + ": nothing is said: " + said, said.empty());
+    };
+    const auto raised = [](const std::function<double(double)> &by) {
+      return [=](const double x, const Point p) {
+        return Point(p[0], p[1] + by(x));
+      };
+    };
+    silent("alike", raised([](double) { return 0.; }), places);
+    silent("a ramp from a slice on", raised([](double x) { return -0.01 * std::max(0., x - 0.2); }), places);
+    silent("a ramp, one slice in three", raised([](double x) { return -0.01 * std::max(0., x - 0.2); }),
+           {0., 0.1, 0.2, 0.22, 0.24, 0.34, 0.44, 0.54});
+    silent(
+      "a wing that leads away",
+      [](double x, Point p) { return Point(p[0] + 0.02 * std::max(0., x - 0.2), p[1]); }, places);
+    silent("a dip with straight sides",
+           raised([](double x) { return -5e-3 * std::max(0., 0.06 - std::abs(x - 0.2)); }), places);
+    silent("a step", raised([](double x) { return x > 0.25 ? -1e-3 : 0.; }), places);
+    silent("waves", raised([](double x) { return 0.2e-3 * std::sin(x / 0.04); }), places);
+  }
+
+
+  void units_and_directions(tests::Check &check, const RailSlices &sound)
+  {
+    const auto moved = [&](const double of_points, const double of_places) {
+      RailSlices rail = sound;
+      for (RailSlice &slice : rail.slices)
+        {
+          change(slice, [&](const Point &p) { return p * of_points; });
+          slice.x *= of_places;
+        }
+      return said_of(rail);
+    };
+    for (const auto &[what, said] :
+         {std::pair("points in inches", moved(1. / 25.4, 1.)),
+          std::pair("places in inches", moved(1., 1. / 25.4)), std::pair("points in metres", moved(1e-3, 1.)),
+          std::pair("places in metres", moved(1., 1e-3))})
+      check.that(what + (": " + said), said.find("in mm?") != std::string::npos);
+
+    // A rail from foot to foot, and with the line under the foot, whatever the points are dense on.
+    const tests::TemporaryFolder folder;
+    const std::vector<Point> outline{{-75., -172.}, {-75., -161.}, {-8., -140.}, {-8., -40.}, {-36., -30.},
+                                     {-36., -8.},   {-20., -1.},   {20., -1.},   {36., -8.},  {36., -30.},
+                                     {8., -40.},    {8., -140.},   {75., -161.}, {75., -172.}};
+    for (const bool closed : {false, true})
+      for (const bool down : {false, true})
+        for (const double dense_web : {1., 20.})
+          {
+            const std::string file = folder.path + "/whole.csv";
+            std::ofstream     out(file);
+            out << "x_mm,y_mm,z_mm\n";
+            for (const double x : {0., 50., 100.})
+              for (std::size_t k = 0; k + (closed ? 0 : 1) < outline.size(); ++k)
+                {
+                  const Point &a = outline[k], &b = outline[(k + 1) % outline.size()];
+                  const int    n = std::ceil(a.distance(b) / 2.) * (a[0] == b[0] ? dense_web : 1.);
+                  for (int i = 0; i < n; ++i)
+                    {
+                      const Point p = a + (i + 0.) / n * (b - a);
+                      out << x << ',' << p[0] << ',' << (down ? -p[1] : p[1]) << '\n';
+                    }
+                }
+            out.close();
+            const SlicedRail rail(read_rail_slices(file));
+            const auto       top = rail.height(0.05, 0.);
+            check.absolute(std::string(closed ? "closed" : "from foot to foot") +
+                             (down ? ", z down" : ", z up") + ", its top, mm",
+                           top ? 1e3 * top->z : 0., -1., 0.5);
+          }
   }
 
 
@@ -171,5 +301,8 @@ void run_test(tests::Check &check, const tests::Arguments &)
 {
   const RailSlices sound = read_rail_slices(TREAD_CROSSING);
   one_that_is_wrong(check, sound);
+  neighbours_that_are_wrong(check, sound);
+  honest_shapes(check);
+  units_and_directions(check, sound);
   one_that_is_there_twice(check, sound);
 }

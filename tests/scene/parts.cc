@@ -11,6 +11,7 @@
 #include <tread/scene/islands.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/recorded.h>
+#include <tread/scene/surface_laws.h>
 #include <tread/scene/track_parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/scene/wheelset_summary.h>
@@ -597,7 +598,7 @@ namespace
         Settings settings = narrow;
         settings.push_back("Peak stress/Region=trailing edge");
         check.absolute("peaks: half width with " + narrow.front(),
-                       1e3 * scene_of(dip, settings)->peak_half_width(), 3. * std::sqrt(0.5), 1e-9);
+                       1e3 * peak_half_width(*scene_of(dip, settings)), 3. * std::sqrt(0.5), 1e-9);
       }
     const auto         chosen = scene_of(dip, {"Peak stress/Region=range", "Peak stress/From (mm)=3",
                                                "Peak stress/To (mm)=17", "Peak stress/Half width (mm)=4"});
@@ -623,10 +624,10 @@ namespace
                met({"Defect/Position (mm)=-1000", "Further wheels/Distances (mm)=1000"}));
     check.that("one beside the patch is not",
                !met({"Defect/Lateral position (mm)=18", "Defect/Width (mm)=8"}));
-    const std::vector<std::string> doubts = scene_of(dip, {"Defect/Position (mm)=45"})->doubts();
+    const std::vector<std::string> doubts = tread::doubts(*scene_of(dip, {"Defect/Position (mm)=45"}));
     check.that("which is a doubt",
                doubts.size() == 1 && has(doubts, "NOT reach the defect, from 45.00 to 65.00 mm"));
-    check.that("and only then", scene_of(dip)->doubts().empty());
+    check.that("and only then", doubts(*scene_of(dip)).empty());
   }
 
 
@@ -648,10 +649,9 @@ namespace
   {
     // The wheel rolls from -30 to 30 mm.
     const auto met = [&](const std::string &file, const Settings &more) {
-      return !scene_of({"Defect/Shape=map", "Defect/Profile file=" + file, "Motion/Start (mm)=-30",
-                        "Motion/Rolled distance (mm)=60"},
-                       more)
-                ->misses_defect();
+      return !misses_defect(*scene_of({"Defect/Shape=map", "Defect/Profile file=" + file,
+                                       "Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60"},
+                                      more));
     };
     const auto hump = [](const double x, const double y) {
       return std::max(0., 1. - std::pow(x / 8. - 1., 2) - std::pow(y / 8., 2));
@@ -723,7 +723,7 @@ namespace
                                             has(values, "'Vehicle/Sprung mass (kg)' 9") &&
                                             has(values, "'Rail/Density (kg per m3)' 7.8"));
     const auto loaded = [](const Settings &more) {
-      return scene_of({"Motion/Rolled distance (mm)=60"}, more)->implausible_values();
+      return implausible_values(*scene_of({"Motion/Rolled distance (mm)=60"}, more));
     };
     check.that("an axle load in kN",
                has(loaded({"Vehicle/Axle load (t)=180"}), "'Vehicle/Axle load (t)' 180"));
@@ -734,7 +734,7 @@ namespace
     const std::string in_newton =
       folder.write("newton.csv", "support,ballast_damping_kN_s_per_m\n0,33\n1,33000\n");
     check.that("a damper of one support in N s per m",
-               has(scene_of(on_track, {"Track/Support file=" + in_newton})->implausible_values(),
+               has(implausible_values(*scene_of(on_track, {"Track/Support file=" + in_newton})),
                    "support 1: ballast_damping_kN_s_per_m 33000"));
     // Where a wheel begins on its defect: the path is from -30 to 30 mm, the patch 16 mm long.
     const auto dip_from = [&](const std::string &position) {
@@ -793,7 +793,7 @@ namespace
   void check_unmatched(tests::Check &check)
   {
     const auto says = [](const Settings &settings, const std::string &words) {
-      return has(scene_of(settings)->doubts(), words);
+      return has(doubts(*scene_of(settings)), words);
     };
     const std::string words = "'Solid/Matched surface' has little or no effect on ";
     check.that("steel is matched", !says({}, words));
@@ -822,7 +822,7 @@ namespace
                            "Motion/Speed (km per h)=144",
                            "Motion/Creepage=0.01"};
     const auto     memory = [&](const Settings &more) {
-      return 1e6 * scene_of(falling, more)->friction_law()->memory().distance;
+      return 1e6 * friction_law(*scene_of(falling, more))->memory().distance;
     };
     // Slip of 0.02 x 40 m/s: s|f'| is largest there, 0.8 x 0.2 exp(-0.8); load 140 kN, R 460 mm, E 210 GPa.
     const auto   scene    = scene_of(falling);
@@ -844,8 +844,8 @@ namespace
       memory({"Contact/Falling slip speed (m per s)=8"}), 1e-12);
     check.that("memory of a slow fall", memory({"Contact/Falling slip speed (m per s)=8"}) > 1.);
     check.that("none at all is a doubt",
-               has(scene_of(falling, {"Contact/Friction memory (mm)=0"})->doubts(), "lets slip oscillate"));
-    check.that("what is taken is not", scene_of(falling)->doubts().empty());
+               has(doubts(*scene_of(falling, {"Contact/Friction memory (mm)=0"})), "lets slip oscillate"));
+    check.that("what is taken is not", doubts(*scene_of(falling)).empty());
   }
 
   void check_profiles(tests::Check &check, const TemporaryFolder &folder)
@@ -1030,8 +1030,7 @@ namespace
     check.that("fine half width with them: there is room for twice the load", wider > std::cbrt(2.));
     check.that("fine half width with them: not for more than three times the load", wider < std::cbrt(3.));
     check.relative("fine half width as it is given, mm",
-                   1e3 * scene_of(block, {"Mesh/Fine half width (mm)=11"})->fine_half_width(), 11.,
-                   round_off);
+                   1e3 * fine_half_width(*scene_of(block, {"Mesh/Fine half width (mm)=11"})), 11., round_off);
 
     // Cubes from 10 mm before to 30 mm behind the leading edge, elsewhere cells of twice the length.
     const auto scene =
@@ -1274,7 +1273,7 @@ namespace
     const auto     of_length = [&](const std::string &name, const Settings &more,
                                const std::vector<double> &borders) {
       const auto scene   = scene_of(way, more);
-      const auto windows = windows(*scene);
+      const auto windows = tread::windows(*scene);
       check.absolute(name + ": number of windows", windows.size(), borders.size() - 1, 0.);
       for (std::size_t k = 0; k < std::min(windows.size(), borders.size() - 1); ++k)
         {
@@ -1308,7 +1307,7 @@ namespace
     Settings usual = until("90");
     usual.erase(usual.begin());
     const auto   scene    = scene_of(way, usual);
-    const auto   windows  = windows(*scene);
+    const auto   windows  = tread::windows(*scene);
     const double own      = 2.5 * hertz(*scene, scene->static_load()).semi_axis_x; // without supports
     unsigned int expected = 0;
     for (const double stretch : {269e-3, 142e-3, 189e-3})
