@@ -84,15 +84,15 @@ namespace tread
     surfaces.replicate(rows.data(), replicated);
     for (unsigned int i = 0; i < replicated.size(); ++i)
       inverse_mass[i] = replicated[i][0];
-    time_to_refresh = 0.;
+    until_refresh.due = 0.;
   }
 
 
   void Contact::scale_impulses(const double factor)
   {
-    for (Vector3 &p : impulse)
+    for (Vector3 &p : pairs.impulse)
       p *= factor;
-    previous_impulse = impulse;
+    pairs.previous_impulse = pairs.impulse;
   }
 
 
@@ -110,7 +110,7 @@ namespace tread
     MemoryOfNodes memory;
     memory.impulse.assign(surfaces.nodes.size(), Vector3{});
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      memory.impulse[problem.constraints[j].slave] = impulse[j];
+      memory.impulse[problem.constraints[j].slave] = pairs.impulse[j];
     if (friction->memory().distance > 0.)
       {
         memory.coefficient.assign(surfaces.nodes.size(), friction->coefficient(0.));
@@ -171,14 +171,14 @@ namespace tread
     const auto   largest = largest_speeds(v);
     const double speed =
       dealii::Utilities::MPI::max(largest[0], comm) + dealii::Utilities::MPI::max(largest[1], comm);
-    travelled = 0.;
-    allowed_travel =
+    until_refresh.travelled = 0.;
+    until_refresh.allowed_travel =
       std::min(most_travel * search_reach,
                std::max(least_travel * reach, of_time_to_touch * speed * coupling.time_to_touch));
-    time_to_refresh = std::numeric_limits<double>::max();
+    until_refresh.due = std::numeric_limits<double>::max();
     Vector3             turning{};
     unsigned int        n_loaded = 0;
-    std::vector<double> gap(coupling.rows.size()), closing_speed(coupling.rows.size());
+    std::vector<double> gap(coupling.rows.size()), until_refresh.closing_speed(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
         const MortarRow &row = coupling.rows[j];
@@ -188,13 +188,13 @@ namespace tread
             distance += coupling.entries[i].coefficient * all_x[coupling.entries[i].node];
             u += coupling.entries[i].coefficient * all_v[coupling.entries[i].node];
           }
-        gap[j]           = dot(distance, row.normal);
-        closing_speed[j] = -dot(u, row.normal);
+        gap[j]                         = dot(distance, row.normal);
+        until_refresh.closing_speed[j] = -dot(u, row.normal);
         if (norm(impulse_of_node[row.slave]) > 0.)
           {
             const double sliding = norm(u - dot(u, row.normal) * row.normal);
-            if (sliding * time_to_refresh > parameters.sliding_share * face_size)
-              time_to_refresh = parameters.sliding_share * face_size / sliding;
+            if (sliding * until_refresh.due > parameters.sliding_share * face_size)
+              until_refresh.due = parameters.sliding_share * face_size / sliding;
             ++n_loaded;
             for (const unsigned int f : slave_faces[row.slave])
               {
@@ -206,10 +206,10 @@ namespace tread
           }
       }
     if (const double rate = n_loaded > 0 ? norm(turning) / n_loaded : 0.;
-        rate * time_to_refresh > parameters.turning)
-      time_to_refresh = parameters.turning / rate;
-    time_to_refresh    = std::max(time_to_refresh, time_step);
-    time_since_refresh = 0.;
+        rate * until_refresh.due > parameters.turning)
+      until_refresh.due = parameters.turning / rate;
+    until_refresh.due  = std::max(until_refresh.due, time_step);
+    until_refresh.time = 0.;
 
     std::vector<unsigned int> chosen;
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
@@ -219,7 +219,7 @@ namespace tread
     std::vector<char> is_near(involved.size(), false);
     for (unsigned int k = 0; k < chosen.size(); ++k)
       if (const unsigned int j = chosen[k];
-          norm(impulse[k]) > 0. || gap[j] <= closing_speed[j] * time_to_refresh)
+          norm(pairs.impulse[k]) > 0. || gap[j] <= until_refresh.closing_speed[j] * until_refresh.due)
         for (unsigned int i = problem.constraints[k].begin; i < problem.constraints[k].end; ++i)
           is_near[problem.entries[i].node] = true;
     near_contact.clear();
@@ -255,7 +255,7 @@ namespace tread
     involved.clear();
     problem.constraints.clear();
     problem.entries.clear();
-    impulse.clear();
+    pairs.impulse.clear();
     corners_around.clear();
     steps_since_normals       = 0;
     const auto compact_number = [&](const unsigned int node) -> unsigned int {
@@ -280,7 +280,7 @@ namespace tread
           }
         constraint.end = problem.entries.size();
         problem.constraints.push_back(constraint);
-        impulse.push_back(impulse_of_node[row.slave]);
+        pairs.impulse.push_back(impulse_of_node[row.slave]);
         corners_around.emplace_back();
         for (const unsigned int f : slave_faces[row.slave])
           for (const unsigned int i : surfaces.faces[f].nodes)
@@ -292,17 +292,17 @@ namespace tread
         for (const unsigned int parent : h.parents)
           compact_number(parent);
 
-    position.resize(involved.size());
+    nodes.position.resize(involved.size());
     for (unsigned int i = 0; i < involved.size(); ++i)
-      position[i] = x[involved[i]];
-    previous_impulse = impulse;
-    slid.assign(problem.constraints.size(), 0.);
+      nodes.position[i] = x[involved[i]];
+    pairs.previous_impulse = pairs.impulse;
+    pairs.slid.assign(problem.constraints.size(), 0.);
     if (take_record)
-      totals.assign(problem.constraints.size(), {});
-    given_ratio.clear();
-    if (given_tractions)
+      pairs.totals.assign(problem.constraints.size(), {});
+    pairs.given_ratio.clear();
+    if (given.tractions)
       for (const ContactProblem::Constraint &constraint : problem.constraints)
-        given_ratio.push_back(given_tractions(surfaces.nodes[constraint.slave].reference));
+        pairs.given_ratio.push_back(given.tractions(surfaces.nodes[constraint.slave].reference));
     renew_friction();
     make_room();
   }
@@ -311,25 +311,25 @@ namespace tread
   void Contact::renew_friction()
   {
     pair_friction.factor.clear();
-    if (friction_factor || friction_factor_of_node)
+    if (given.friction_factor || given.friction_factor_of_node)
       for (const ContactProblem::Constraint &constraint : problem.constraints)
         pair_friction.factor.push_back(
-          (friction_factor ? friction_factor(surfaces.nodes[constraint.slave].reference) : 1.) *
-          (friction_factor_of_node ? friction_factor_of_node(constraint.slave) : 1.));
+          (given.friction_factor ? given.friction_factor(surfaces.nodes[constraint.slave].reference) : 1.) *
+          (given.friction_factor_of_node ? given.friction_factor_of_node(constraint.slave) : 1.));
   }
 
 
   void Contact::make_room(const std::vector<unsigned int> &begin_of_strip)
   {
     const int this_rank = dealii::Utilities::MPI::this_mpi_process(comm);
-    involved_of_rank.assign(dealii::Utilities::MPI::n_mpi_processes(comm), {});
-    own_involved.clear();
+    exchange.involved_of_rank.assign(dealii::Utilities::MPI::n_mpi_processes(comm), {});
+    exchange.own.clear();
     for (unsigned int i = 0; i < involved.size(); ++i)
       {
         const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
-        involved_of_rank[node.owner].push_back(i);
+        exchange.involved_of_rank[node.owner].push_back(i);
         if (node.owner == this_rank)
-          own_involved.push_back({i, static_cast<unsigned int>(node.local), inverse_mass[involved[i]]});
+          exchange.own.push_back({i, static_cast<unsigned int>(node.local), inverse_mass[involved[i]]});
       }
     std::vector<int> number(surfaces.nodes.size(), -1);
     for (unsigned int i = 0; i < involved.size(); ++i)
@@ -340,27 +340,27 @@ namespace tread
         involved_hanging.push_back({static_cast<unsigned int>(number[h.node]),
                                     {{static_cast<unsigned int>(number[h.parents[0]]),
                                       static_cast<unsigned int>(number[h.parents[1]])}}});
-    master_of.assign(problem.constraints.size(), parameters.slave_body);
+    pairs.master_of.assign(problem.constraints.size(), parameters.slave_body);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
         if (const unsigned int body = surfaces.nodes[involved[problem.entries[i].node]].body;
             body != parameters.slave_body)
-          master_of[j] = body;
-    velocity.assign(involved.size(), Vector3{});
-    predicted.assign(involved.size(), Vector3{});
-    velocity_before.assign(involved.size(), Vector3{});
-    mean_velocity.assign(involved.size(), Vector3{});
-    offset.resize(problem.constraints.size());
-    imposed.assign(problem.constraints.size(), Vector3{});
-    before_entry.assign(problem.constraints.size(), Vector3{});
-    slips.assign(problem.constraints.size(), false);
-    const unsigned int n_ranks = involved_of_rank.size();
+          pairs.master_of[j] = body;
+    nodes.velocity.assign(involved.size(), Vector3{});
+    nodes.predicted.assign(involved.size(), Vector3{});
+    nodes.velocity_before.assign(involved.size(), Vector3{});
+    nodes.mean_velocity.assign(involved.size(), Vector3{});
+    pairs.offset.resize(problem.constraints.size());
+    pairs.imposed.assign(problem.constraints.size(), Vector3{});
+    pairs.before_entry.assign(problem.constraints.size(), Vector3{});
+    pairs.slips.assign(problem.constraints.size(), false);
+    const unsigned int n_ranks = exchange.involved_of_rank.size();
     if (parameters.reproducible)
       strips = Strips(problem);
     else
       strips = begin_of_strip.size() == n_ranks + 1
                  ? Strips(problem, begin_of_strip, involved.size(), *first_ranks)
-                 : Strips(problem, impulse, involved.size(), *first_ranks);
+                 : Strips(problem, pairs.impulse, involved.size(), *first_ranks);
 
     // Nodes that the sweeps of this rank's strip move, and others whose positions it needs.
     std::vector<char> swept(involved.size(), false), needed(involved.size(), false);
@@ -381,20 +381,20 @@ namespace tread
       if (needed[h.node])
         for (const unsigned int parent : h.parents)
           needed[parent] = true;
-    received_from.assign(n_ranks, {});
-    sent_to.assign(n_ranks, {});
+    exchange.received_from.assign(n_ranks, {});
+    exchange.sent_to.assign(n_ranks, {});
     std::map<unsigned int, std::vector<unsigned int>> wanted;
     for (unsigned int i = 0; i < involved.size(); ++i)
       if (const int owner = surfaces.nodes[involved[i]].owner; (swept[i] || needed[i]) && owner != this_rank)
         wanted[owner].push_back(i);
     for (const auto &[rank, nodes] : wanted)
-      received_from[rank] = nodes;
+      exchange.received_from[rank] = nodes;
     if (n_ranks > 1)
       for (const auto &[rank, nodes] : dealii::Utilities::MPI::some_to_some(comm, wanted))
-        sent_to[rank] = nodes;
+        exchange.sent_to[rank] = nodes;
 
     swept_nodes.clear();
-    node_terms.clear();
+    effects.of_nodes.clear();
     std::vector<int> number_of_terms(involved.size(), -1);
     for (unsigned int i = 0; i < involved.size(); ++i)
       {
@@ -403,24 +403,25 @@ namespace tread
         if (const ContactSurfaces::Node &node = surfaces.nodes[involved[i]];
             swept[i] || needed[i] || node.local >= 0)
           {
-            number_of_terms[i] = node_terms.size();
-            node_terms.push_back({i, node.local, node.owner == this_rank, inverse_mass[involved[i]], 0, 0});
+            number_of_terms[i] = effects.of_nodes.size();
+            effects.of_nodes.push_back(
+              {i, node.local, node.owner == this_rank, inverse_mass[involved[i]], 0, 0});
           }
       }
     for (const ContactProblem::Entry &entry : problem.entries)
       if (const int k = number_of_terms[entry.node]; k >= 0)
-        ++node_terms[k].end;
+        ++effects.of_nodes[k].end;
     unsigned int n_terms = 0;
-    for (NodeTerms &node : node_terms)
+    for (Effects::NodeTerms &node : effects.of_nodes)
       {
         node.begin = n_terms;
         n_terms += std::exchange(node.end, n_terms);
       }
-    terms.resize(n_terms);
+    effects.terms.resize(n_terms);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
         if (const int k = number_of_terms[problem.entries[i].node]; k >= 0)
-          terms[node_terms[k].end++] = {j, problem.entries[i].coefficient};
+          effects.terms[effects.of_nodes[k].end++] = {j, problem.entries[i].coefficient};
   }
 
 
@@ -434,18 +435,18 @@ namespace tread
   {
     complete_normals();
     gather_strips(pair_friction.coefficient);
-    gather_strips(previous_impulse);
-    gather_strips(slid);
-    gather_strips(totals);
+    gather_strips(pairs.previous_impulse);
+    gather_strips(pairs.slid);
+    gather_strips(pairs.totals);
 
     std::vector<Vector3> rows;
-    for (const unsigned int i : involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])
-      rows.push_back(position[i]);
+    for (const unsigned int i : exchange.involved_of_rank[dealii::Utilities::MPI::this_mpi_process(comm)])
+      rows.push_back(nodes.position[i]);
     rows     = gathered(rows, comm);
     auto row = rows.begin();
-    for (const std::vector<unsigned int> &nodes : involved_of_rank)
+    for (const std::vector<unsigned int> &nodes : exchange.involved_of_rank)
       for (const unsigned int i : nodes)
-        position[i] = *row++;
+        nodes.position[i] = *row++;
   }
 
 
@@ -454,22 +455,22 @@ namespace tread
                         const double         time_step,
                         std::vector<double> &extra)
   {
-    const unsigned int n_ranks = involved_of_rank.size();
+    const unsigned int n_ranks = exchange.involved_of_rank.size();
     // Measured as rarely as the normals are updated, because speeds change little in between.
     const bool            measures = steps_since_normals == 0;
     std::array<double, 2> largest  = measures ? largest_speeds(v) : std::array<double, 2>{{0., 0.}};
-    for (std::size_t k = 0; k < own_involved.size(); ++k)
+    for (std::size_t k = 0; k < exchange.own.size(); ++k)
       {
         // Surface nodes lie far apart among those of the body.
         constexpr std::size_t ahead = 8;
-        if (k + ahead < own_involved.size())
+        if (k + ahead < exchange.own.size())
           {
-            __builtin_prefetch(v + own_involved[k + ahead].local);
-            __builtin_prefetch(force + own_involved[k + ahead].local);
+            __builtin_prefetch(v + exchange.own[k + ahead].local);
+            __builtin_prefetch(force + exchange.own[k + ahead].local);
           }
-        const auto [node, local, inverse_mass] = own_involved[k];
-        velocity_before[node]                  = v[local];
-        predicted[node]                        = v[local] + time_step * inverse_mass * force[local];
+        const auto [node, local, inverse_mass] = exchange.own[k];
+        nodes.velocity_before[node]            = v[local];
+        nodes.predicted[node]                  = v[local] + time_step * inverse_mass * force[local];
       }
 
     if (n_ranks > 1)
@@ -478,46 +479,46 @@ namespace tread
         std::vector<int>   send_counts(n_ranks, 0), send_offsets(n_ranks, 0), counts(n_ranks, 0),
           offsets(n_ranks, 0);
         unsigned int total = 0;
-        send_buffer.clear();
+        exchange.send_buffer.clear();
         for (unsigned int rank = 0; rank < n_ranks; ++rank)
           {
             offsets[rank]      = total;
-            send_offsets[rank] = send_buffer.size();
+            send_offsets[rank] = exchange.send_buffer.size();
             if (rank == this_rank)
               continue;
-            send_buffer.insert(send_buffer.end(), largest.begin(), largest.end());
-            send_buffer.insert(send_buffer.end(), extra.begin(), extra.end());
-            for (const unsigned int i : sent_to[rank])
-              for (const Vector3 &row : {velocity_before[i], predicted[i]})
-                send_buffer.insert(send_buffer.end(), {row[0], row[1], row[2]});
-            send_counts[rank] = send_buffer.size() - send_offsets[rank];
-            counts[rank]      = largest.size() + extra.size() + 6 * received_from[rank].size();
+            exchange.send_buffer.insert(exchange.send_buffer.end(), largest.begin(), largest.end());
+            exchange.send_buffer.insert(exchange.send_buffer.end(), extra.begin(), extra.end());
+            for (const unsigned int i : exchange.sent_to[rank])
+              for (const Vector3 &row : {nodes.velocity_before[i], nodes.predicted[i]})
+                exchange.send_buffer.insert(exchange.send_buffer.end(), {row[0], row[1], row[2]});
+            send_counts[rank] = exchange.send_buffer.size() - send_offsets[rank];
+            counts[rank]      = largest.size() + extra.size() + 6 * exchange.received_from[rank].size();
             total += counts[rank];
           }
-        receive_buffer.resize(total);
-        MPI_Alltoallv(send_buffer.data(), send_counts.data(), send_offsets.data(), MPI_DOUBLE,
-                      receive_buffer.data(), counts.data(), offsets.data(), MPI_DOUBLE, comm);
+        exchange.receive_buffer.resize(total);
+        MPI_Alltoallv(exchange.send_buffer.data(), send_counts.data(), send_offsets.data(), MPI_DOUBLE,
+                      exchange.receive_buffer.data(), counts.data(), offsets.data(), MPI_DOUBLE, comm);
         std::vector<double> sums(extra.size(), 0.);
         for (unsigned int rank = 0; rank < n_ranks; ++rank)
           {
-            const double *received = receive_buffer.data() + offsets[rank];
+            const double *received = exchange.receive_buffer.data() + offsets[rank];
             if (rank != this_rank)
               for (double &speed : largest)
                 speed = std::max(speed, *received++);
             for (unsigned int i = 0; i < extra.size(); ++i)
               sums[i] += rank == this_rank ? extra[i] : *received++;
-            for (const unsigned int i : received_from[rank])
+            for (const unsigned int i : exchange.received_from[rank])
               {
-                velocity_before[i] = Vector3{received[0], received[1], received[2], 0.};
-                predicted[i]       = Vector3{received[3], received[4], received[5], 0.};
+                nodes.velocity_before[i] = Vector3{received[0], received[1], received[2], 0.};
+                nodes.predicted[i]       = Vector3{received[3], received[4], received[5], 0.};
                 received += 6;
               }
           }
         extra = sums;
       }
     if (measures)
-      closing_speed = largest[0] + largest[1];
-    travelled += time_step * closing_speed;
+      until_refresh.closing_speed = largest[0] + largest[1];
+    until_refresh.travelled += time_step * until_refresh.closing_speed;
   }
 
 
@@ -529,7 +530,8 @@ namespace tread
         for (unsigned int k = 0; k < corners_around[j].size(); k += 4)
           {
             const unsigned int *c = &corners_around[j][k];
-            sum += cross(position[c[2]] - position[c[0]], position[c[3]] - position[c[1]]);
+            sum +=
+              cross(nodes.position[c[2]] - nodes.position[c[0]], nodes.position[c[3]] - nodes.position[c[1]]);
           }
         problem.constraints[j].normal = sum * (1. / norm(sum));
       }
@@ -541,7 +543,7 @@ namespace tread
                                      const double                      gap_over_step,
                                      const Vector3                     sliding) const
   {
-    const Vector3 u       = problem.combine(constraint, velocity_before);
+    const Vector3 u       = problem.combine(constraint, nodes.velocity_before);
     const double  opening = dot(u, constraint.normal);
     if (opening >= 0. || gap_over_step <= 0.)
       return Vector3{};
@@ -554,70 +556,73 @@ namespace tread
     if (++steps_since_normals > steps_between_normals)
       update_normals();
     for (const unsigned int i : swept_nodes)
-      velocity[i] = predicted[i];
+      nodes.velocity[i] = nodes.predicted[i];
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        offset[j] =
-          (dot(problem.combine(constraint, position), constraint.normal) / time_step) * constraint.normal;
-        if (imposed_sliding)
+        pairs.offset[j] = (dot(problem.combine(constraint, nodes.position), constraint.normal) / time_step) *
+                          constraint.normal;
+        if (given.sliding)
           {
-            const Vector3 sliding = imposed_sliding(surfaces.nodes[constraint.slave].reference, master_of[j]);
-            imposed[j]            = sliding - dot(sliding, constraint.normal) * constraint.normal;
-            offset[j] += imposed[j];
+            const Vector3 sliding =
+              given.sliding(surfaces.nodes[constraint.slave].reference, pairs.master_of[j]);
+            pairs.imposed[j] = sliding - dot(sliding, constraint.normal) * constraint.normal;
+            pairs.offset[j] += pairs.imposed[j];
           }
-        before_entry[j] = given_ratio.empty() && dot(impulse[j], impulse[j]) == 0.
-                            ? slip_before_entry(constraint, dot(offset[j], constraint.normal), imposed[j])
-                            : Vector3{};
-        offset[j] -= before_entry[j];
+        pairs.before_entry[j] =
+          pairs.given_ratio.empty() && dot(pairs.impulse[j], pairs.impulse[j]) == 0.
+            ? slip_before_entry(constraint, dot(pairs.offset[j], constraint.normal), pairs.imposed[j])
+            : Vector3{};
+        pairs.offset[j] -= pairs.before_entry[j];
       }
     // Impulses change smoothly while rolling: the start is extrapolated from the last two steps.
     for (unsigned int j = strips.first_acting; j < strips.end_acting; ++j)
       {
-        const Vector3 guess = 2. * impulse[j] - previous_impulse[j];
-        previous_impulse[j] = impulse[j];
-        if (dot(impulse[j], impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
-          impulse[j] = guess;
+        const Vector3 guess       = 2. * pairs.impulse[j] - pairs.previous_impulse[j];
+        pairs.previous_impulse[j] = pairs.impulse[j];
+        if (dot(pairs.impulse[j], pairs.impulse[j]) > 0. && dot(guess, problem.constraints[j].normal) > 0.)
+          pairs.impulse[j] = guess;
       }
     const CoulombSolverResult result =
-      solve_coulomb(problem, *friction, parameters.solver, strips, offset, velocity, impulse, slips,
-                    given_ratio, pair_friction, time_step);
+      solve_coulomb(problem, *friction, parameters.solver, strips, pairs.offset, nodes.velocity,
+                    pairs.impulse, pairs.slips, pairs.given_ratio, pair_friction, time_step);
 
     bool slid_enough = false;
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        if (dot(impulse[j], constraint.normal) <= 0. || !slips[j])
+        if (dot(pairs.impulse[j], constraint.normal) <= 0. || !pairs.slips[j])
           continue;
-        const Vector3 after = problem.combine(constraint, velocity);
-        slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
-        slid_enough = slid_enough || slid[j] > parameters.sliding_share * face_size;
+        const Vector3 after = problem.combine(constraint, nodes.velocity);
+        pairs.slid[j] += time_step * norm(after - dot(after, constraint.normal) * constraint.normal);
+        slid_enough = slid_enough || pairs.slid[j] > parameters.sliding_share * face_size;
       }
     if (!pair_friction.coefficient.empty())
       age_friction(time_step);
     // All that sweep know the same change; the others know none.
     const bool unconverged = result.change > parameters.solver.tolerance;
     const auto found =
-      static_cast<int>(strips.gather(impulse, (unconverged ? 2. : 0.) + (slid_enough ? 1. : 0.)));
+      static_cast<int>(strips.gather(pairs.impulse, (unconverged ? 2. : 0.) + (slid_enough ? 1. : 0.)));
     unconverged_steps += found / 2;
     if (found % 2 > 0)
-      time_to_refresh = 0.; // also for pairs that did not touch at the last refresh
+      until_refresh.due = 0.; // also for pairs that did not touch at the last refresh
 
     work = ContactWork();
-    for (const NodeTerms &of_node : node_terms)
+    for (const Effects::NodeTerms &of_node : effects.of_nodes)
       {
         Vector3      sum[2] = {}; // each addition waits for the one before it
         unsigned int k      = of_node.begin;
         for (; k + 2 <= of_node.end; k += 2)
           for (unsigned int half : {0u, 1u})
-            sum[half] += terms[k + half].coefficient * impulse[terms[k + half].constraint];
+            sum[half] +=
+              effects.terms[k + half].coefficient * pairs.impulse[effects.terms[k + half].constraint];
         if (k < of_node.end)
-          sum[0] += terms[k].coefficient * impulse[terms[k].constraint];
+          sum[0] += effects.terms[k].coefficient * pairs.impulse[effects.terms[k].constraint];
         const Vector3 p     = sum[0] + sum[1];
-        Vector3      &after = velocity[of_node.node];
-        after               = predicted[of_node.node] + of_node.inverse_mass * p;
-        position[of_node.node] += time_step * after;
-        mean_velocity[of_node.node] = 0.5 * (after + velocity_before[of_node.node]);
+        Vector3      &after = nodes.velocity[of_node.node];
+        after               = nodes.predicted[of_node.node] + of_node.inverse_mass * p;
+        nodes.position[of_node.node] += time_step * after;
+        nodes.mean_velocity[of_node.node] = 0.5 * (after + nodes.velocity_before[of_node.node]);
         if (of_node.local < 0)
           continue;
         const Vector3 before = force[of_node.local];
@@ -626,14 +631,15 @@ namespace tread
           {
             // The work is that of the force actually applied to the node, not of the impulse intended.
             const Vector3 given = time_step * (force[of_node.local] - before);
-            work.on_nodes.add(-0.5 * dot(given, velocity_before[of_node.node] + predicted[of_node.node] +
-                                                  of_node.inverse_mass * given));
+            work.on_nodes.add(-0.5 *
+                              dot(given, nodes.velocity_before[of_node.node] + nodes.predicted[of_node.node] +
+                                           of_node.inverse_mass * given));
           }
       }
     add_work_of_pairs();
     for (const ContactSurfaces::HangingNode &h : involved_hanging)
-      position[h.node] = 0.5 * (position[h.parents[0]] + position[h.parents[1]]);
-    time_since_refresh += time_step;
+      nodes.position[h.node] = 0.5 * (nodes.position[h.parents[0]] + nodes.position[h.parents[1]]);
+    until_refresh.time += time_step;
     return result;
   }
 
@@ -645,14 +651,14 @@ namespace tread
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        if (dot(impulse[j], constraint.normal) <= 0.)
+        if (dot(pairs.impulse[j], constraint.normal) <= 0.)
           {
             pair_friction.coefficient[j] = without_slip;
             continue;
           }
-        const Vector3 u = problem.combine(constraint, velocity);
+        const Vector3 u = problem.combine(constraint, nodes.velocity);
         const double  speed =
-          slips[j] ? norm(u - dot(u, constraint.normal) * constraint.normal + imposed[j]) : 0.;
+          pairs.slips[j] ? norm(u - dot(u, constraint.normal) * constraint.normal + pairs.imposed[j]) : 0.;
         const double in_the_long_run = friction->coefficient(speed);
         pair_friction.coefficient[j] =
           in_the_long_run + (pair_friction.coefficient[j] - in_the_long_run) *

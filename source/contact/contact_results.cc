@@ -22,28 +22,28 @@ namespace tread
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        const double                      normal     = dot(impulse[j], constraint.normal);
+        const double                      normal     = dot(pairs.impulse[j], constraint.normal);
         if (normal <= 0.)
           continue;
-        const Vector3 u = problem.combine(constraint, mean_velocity);
-        work.imposed -= dot(impulse[j] - normal * constraint.normal, imposed[j]);
+        const Vector3 u = problem.combine(constraint, nodes.mean_velocity);
+        work.imposed -= dot(pairs.impulse[j] - normal * constraint.normal, pairs.imposed[j]);
         work.normal -= normal * dot(u, constraint.normal);
-        (slips[j] ? work.friction : work.adhesion) += tangential_loss(j, normal, u);
+        (pairs.slips[j] ? work.friction : work.adhesion) += tangential_loss(j, normal, u);
       }
   }
 
 
   double Contact::tangential_loss(const unsigned int j, const double normal, const Vector3 u) const
   {
-    const Vector3 tangential = impulse[j] - normal * problem.constraints[j].normal;
-    return -dot(tangential, imposed[j]) - dot(tangential, u);
+    const Vector3 tangential = pairs.impulse[j] - normal * problem.constraints[j].normal;
+    return -dot(tangential, pairs.imposed[j]) - dot(tangential, u);
   }
 
 
   Vector3 Contact::slip_of(const unsigned int j, const Vector3 u) const
   {
     const Vector3 &normal = problem.constraints[j].normal;
-    return u - dot(u, normal) * normal + imposed[j] - before_entry[j];
+    return u - dot(u, normal) * normal + pairs.imposed[j] - pairs.before_entry[j];
   }
 
 
@@ -54,15 +54,15 @@ namespace tread
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        const double                      normal     = dot(impulse[j], constraint.normal);
-        if (normal <= 0. || !slips[j])
+        const double                      normal     = dot(pairs.impulse[j], constraint.normal);
+        if (normal <= 0. || !pairs.slips[j])
           continue;
-        const Vector3 u    = problem.combine(constraint, mean_velocity);
+        const Vector3 u    = problem.combine(constraint, nodes.mean_velocity);
         const double  slip = norm(slip_of(j, u));
-        totals[j].duration += time_step;
-        totals[j].friction += tangential_loss(j, normal, u);
-        totals[j].distance += time_step * slip;
-        totals[j].sliding += normal * slip;
+        pairs.totals[j].duration += time_step;
+        pairs.totals[j].friction += tangential_loss(j, normal, u);
+        pairs.totals[j].distance += time_step * slip;
+        pairs.totals[j].sliding += normal * slip;
       }
   }
 
@@ -74,12 +74,12 @@ namespace tread
     PairRecord record;
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
-        if (totals[j].duration == 0.)
+        if (pairs.totals[j].duration == 0.)
           continue;
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         record.slave                                 = constraint.slave;
         record.area                                  = constraint.area;
-        record.totals                                = std::exchange(totals[j], {});
+        record.totals                                = std::exchange(pairs.totals[j], {});
         // The dual functions make the coefficients of some nodes negative, who would gain what others lose.
         record.masters.clear();
         double sum = 0.;
@@ -100,18 +100,18 @@ namespace tread
   void Contact::visit_impulses(
     const std::function<void(unsigned int node, double normal, double tangential)> &visit) const
   {
-    for (const NodeTerms &node : node_terms)
+    for (const Effects::NodeTerms &node : effects.of_nodes)
       if (node.owned)
         {
           double  normal = 0.;
           Vector3 tangential{};
           for (unsigned int k = node.begin; k < node.end; ++k)
             {
-              const Vector3 &p   = impulse[terms[k].constraint],
-                            &n   = problem.constraints[terms[k].constraint].normal;
+              const Vector3 &p   = pairs.impulse[effects.terms[k].constraint],
+                            &n   = problem.constraints[effects.terms[k].constraint].normal;
               const double along = dot(p, n);
-              normal += terms[k].coefficient * along;
-              tangential += terms[k].coefficient * (p - along * n);
+              normal += effects.terms[k].coefficient * along;
+              tangential += effects.terms[k].coefficient * (p - along * n);
             }
           // Normals point into the master. The dual functions pull at some of its nodes beside the patch.
           const double pressing =
@@ -125,7 +125,7 @@ namespace tread
   Vector3 Contact::total_impulse() const
   {
     Vector3 sum{};
-    for (const Vector3 &p : impulse)
+    for (const Vector3 &p : pairs.impulse)
       sum += p;
     return sum;
   }
@@ -136,9 +136,9 @@ namespace tread
     if (body == parameters.slave_body)
       return -1. * total_impulse();
     Vector3 sum{};
-    for (unsigned int j = 0; j < impulse.size(); ++j)
-      if (master_of[j] == body)
-        sum += impulse[j];
+    for (unsigned int j = 0; j < pairs.impulse.size(); ++j)
+      if (pairs.master_of[j] == body)
+        sum += pairs.impulse[j];
     return sum;
   }
 
@@ -146,9 +146,9 @@ namespace tread
   Vector3 Contact::total_impulse_below(const double y) const
   {
     Vector3 sum{};
-    for (unsigned int j = 0; j < impulse.size(); ++j)
+    for (unsigned int j = 0; j < pairs.impulse.size(); ++j)
       if (surfaces.nodes[problem.constraints[j].slave].reference[1] < y)
-        sum += impulse[j];
+        sum += pairs.impulse[j];
     return sum;
   }
 
@@ -160,9 +160,9 @@ namespace tread
     std::vector<double> load(surfaces.nodes.size(), 0.);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       for (unsigned int i = problem.constraints[j].begin; i < problem.constraints[j].end; ++i)
-        if (master_of[j] == master_body)
+        if (pairs.master_of[j] == master_body)
           load[involved[problem.entries[i].node]] +=
-            problem.entries[i].coefficient * dot(impulse[j], problem.constraints[j].normal);
+            problem.entries[i].coefficient * dot(pairs.impulse[j], problem.constraints[j].normal);
 
     double stretch[2] = {0., 0.}, weight[2] = {0., 0.};
     for (const ContactSurfaces::Face &face : surfaces.faces)
@@ -196,20 +196,20 @@ namespace tread
     for (unsigned int j = strips.begin; j < strips.end; ++j)
       {
         const ContactProblem::Constraint &constraint = problem.constraints[j];
-        const double                      normal     = dot(impulse[j], constraint.normal);
+        const double                      normal     = dot(pairs.impulse[j], constraint.normal);
         if (normal <= 0.)
           continue;
         ContactNodeState state;
         state.node        = constraint.slave;
-        state.master_body = master_of[j];
-        state.position    = position[number[constraint.slave]];
+        state.master_body = pairs.master_of[j];
+        state.position    = nodes.position[number[constraint.slave]];
         state.normal      = constraint.normal;
-        state.impulse     = impulse[j];
-        const Vector3 u   = problem.combine(constraint, velocity);
+        state.impulse     = pairs.impulse[j];
+        const Vector3 u   = problem.combine(constraint, nodes.velocity);
         state.slip        = slip_of(j, u);
         state.area        = constraint.area;
-        state.gap         = dot(problem.combine(constraint, position), constraint.normal);
-        state.adhesion    = !slips[j];
+        state.gap         = dot(problem.combine(constraint, nodes.position), constraint.normal);
+        state.adhesion    = !pairs.slips[j];
         states.push_back(state);
       }
     return parameters.reproducible ? states : gathered(states, comm);
@@ -221,9 +221,9 @@ namespace tread
     std::vector<Vector3> of_node(surfaces.nodes.size(), Vector3{});
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
       if (const ContactProblem::Constraint &constraint = problem.constraints[j];
-          dot(impulse[j], constraint.normal) > 0.)
+          dot(pairs.impulse[j], constraint.normal) > 0.)
         for (unsigned int i = constraint.begin; i < constraint.end; ++i)
-          of_node[involved[problem.entries[i].node]] += problem.entries[i].coefficient * impulse[j];
+          of_node[involved[problem.entries[i].node]] += problem.entries[i].coefficient * pairs.impulse[j];
     return of_node;
   }
 
@@ -248,11 +248,11 @@ namespace tread
     std::vector<Vector3> nodal_impulse(involved.size(), Vector3{});
     std::vector<char>    loaded(surfaces.nodes.size(), false);
     for (unsigned int j = 0; j < problem.constraints.size(); ++j)
-      if (const ContactProblem::Constraint &constraint = problem.constraints[j]; norm(impulse[j]) > 0.)
+      if (const ContactProblem::Constraint &constraint = problem.constraints[j]; norm(pairs.impulse[j]) > 0.)
         {
           loaded[constraint.slave] = true;
           for (unsigned int i = constraint.begin; i < constraint.end; ++i)
-            nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * impulse[j];
+            nodal_impulse[problem.entries[i].node] += problem.entries[i].coefficient * pairs.impulse[j];
         }
     double largest = 0.;
     for (const Vector3 &p : nodal_impulse)
@@ -261,7 +261,7 @@ namespace tread
       if (surfaces.nodes[involved[i]].body == parameters.slave_body
             ? loaded[involved[i]]
             : norm(nodal_impulse[i]) > beside_patch * largest)
-        return position[i];
+        return nodes.position[i];
     return {};
   }
 } // namespace tread

@@ -14,14 +14,14 @@ namespace tread
       return std::all_of(numbers.begin(), numbers.end(), [end](const unsigned int i) { return i < end; });
     };
     for (const std::size_t size :
-         {impulse.size(), previous_impulse.size(), slid.size(), corners_around.size()})
+         {pairs.impulse.size(), pairs.previous_impulse.size(), pairs.slid.size(), corners_around.size()})
       if (size != n_pairs)
         return false;
     for (const std::size_t size :
-         {pair_friction.coefficient.size(), pair_friction.factor.size(), totals.size()})
+         {pair_friction.coefficient.size(), pair_friction.factor.size(), pairs.totals.size()})
       if (size != 0 && size != n_pairs)
         return false;
-    if (position.size() != n_nodes || !all_below(involved, surfaces.nodes.size()) ||
+    if (nodes.position.size() != n_nodes || !all_below(involved, surfaces.nodes.size()) ||
         !all_below(near_contact, surfaces.nodes.size()))
       return false;
 
@@ -56,10 +56,11 @@ namespace tread
   {
     if (!archive.restores())
       complete_state();
-    archive.same(problem.constraints, problem.entries, involved, position, impulse, previous_impulse, slid,
-                 corners_around, steps_since_normals, time_since_refresh, time_to_refresh, closing_speed,
-                 travelled, allowed_travel, unconverged_steps, pair_friction.coefficient,
-                 pair_friction.factor, near_contact, totals);
+    archive.same(problem.constraints, problem.entries, involved, nodes.position, pairs.impulse,
+                 pairs.previous_impulse, pairs.slid, corners_around, steps_since_normals, until_refresh.time,
+                 until_refresh.due, until_refresh.closing_speed, until_refresh.travelled,
+                 until_refresh.allowed_travel, unconverged_steps, pair_friction.coefficient,
+                 pair_friction.factor, near_contact, pairs.totals);
     archive.shares(work.friction, work.normal, work.adhesion, work.imposed);
     work.on_nodes.serialize(archive);
     std::vector<unsigned int> begin_of_strip = strips.begins();
@@ -71,8 +72,8 @@ namespace tread
         make_room(begin_of_strip);
       }
     if (parameters.reproducible)
-      archive.same(slips);
+      archive.same(pairs.slips);
     else
-      archive.own(slips); // on other ranks they are found by the next step
+      archive.own(pairs.slips); // on other ranks they are found by the next step
   }
 } // namespace tread

@@ -108,8 +108,8 @@ namespace tread
     /// function restores the friction law.
     void give_tractions(std::function<Vector3(const Vector3)> over_pressure)
     {
-      given_tractions = std::move(over_pressure);
-      time_to_refresh = 0.;
+      given.tractions   = std::move(over_pressure);
+      until_refresh.due = 0.;
     }
 
     using Sliding = std::function<Vector3(const Vector3 place, const unsigned int master)>;
@@ -120,23 +120,23 @@ namespace tread
     /// node in the mesh (m) and the master body; an empty one imposes nothing. @returns the one before
     Sliding impose_sliding(Sliding velocity)
     {
-      return std::exchange(imposed_sliding, std::move(velocity));
+      return std::exchange(given.sliding, std::move(velocity));
     }
 
     /// Friction differs from place to place: a factor of the law's coefficient at the position of a slave
     /// node in the mesh (m), from the next refresh on.
     void vary_friction(std::function<double(const Vector3)> factor)
     {
-      friction_factor = std::move(factor);
-      time_to_refresh = 0.;
+      given.friction_factor = std::move(factor);
+      until_refresh.due     = 0.;
     }
 
     /// Another factor of the law's coefficient at a slave node, by its number among the surfaces', from the
     /// next refresh on, or from renew_friction(), which is to be called when it has changed.
     void vary_friction_with_node(std::function<double(unsigned int)> factor)
     {
-      friction_factor_of_node = std::move(factor);
-      time_to_refresh         = 0.;
+      given.friction_factor_of_node = std::move(factor);
+      until_refresh.due             = 0.;
     }
     void renew_friction();
 
@@ -160,7 +160,8 @@ namespace tread
 
     bool refresh_due() const
     {
-      return time_since_refresh >= time_to_refresh || travelled >= allowed_travel;
+      return until_refresh.time >= until_refresh.due ||
+             until_refresh.travelled >= until_refresh.allowed_travel;
     }
 
     /// Sum extra (n numbers) over the ranks in their order, and give each rank the predicted velocities of
@@ -201,7 +202,7 @@ namespace tread
     void record_pairs(std::function<void(const PairRecord &)> take)
     {
       take_record = std::move(take);
-      totals.assign(problem.constraints.size(), {});
+      pairs.totals.assign(problem.constraints.size(), {});
     }
     /// To be called after each step that counts. @pre record_pairs()
     void add_step_to_record(double time_step);
@@ -299,75 +300,101 @@ namespace tread
     /// strips are made.
     void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
-    MPI_Comm                              comm;
-    ContactParameters                     parameters;
-    std::shared_ptr<const FrictionLaw>    friction;
-    std::function<Vector3(const Vector3)> given_tractions;
-    std::function<double(const Vector3)>  friction_factor;
-    std::function<double(unsigned int)>   friction_factor_of_node;
-    Sliding                               imposed_sliding;
-    std::vector<double>                   inverse_mass; ///< by surface node
-    double                                face_size;
+    MPI_Comm                           comm;
+    ContactParameters                  parameters;
+    std::shared_ptr<const FrictionLaw> friction;
+    std::vector<double>                inverse_mass; ///< by surface node
+    double                             face_size;
+    /// What the user of the contact prescribes.
+    struct Given
+    {
+      std::function<Vector3(const Vector3)> tractions;
+      std::function<double(const Vector3)>  friction_factor;
+      std::function<double(unsigned int)>   friction_factor_of_node;
+      Sliding                               sliding;
+    } given;
 
-    ContactProblem                         problem;
-    std::unique_ptr<FirstRanks>            first_ranks;
-    Strips                                 strips;
-    std::vector<unsigned int>              involved;         ///< surface nodes, by compact number
-    std::vector<unsigned int>              near_contact;     ///< surface nodes (@see nodes_near)
-    std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-    /// Data of the involved nodes of this rank, in their order, that a prediction needs.
-    struct Predicted
-    {
-      unsigned int node, local; ///< compact number, number on this rank
-      double       inverse_mass;
-    };
-    std::vector<Predicted> own_involved;
-    /// Compact numbers of the nodes whose prediction goes to or comes from each rank.
-    std::vector<std::vector<unsigned int>>    sent_to, received_from;
+    ContactProblem                            problem;
+    std::unique_ptr<FirstRanks>               first_ranks;
+    Strips                                    strips;
+    std::vector<unsigned int>                 involved;         ///< surface nodes, by compact number
+    std::vector<unsigned int>                 near_contact;     ///< surface nodes (@see nodes_near)
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
-    /// By compact number. At the end of a step positions and velocities are known for the nodes of this
-    /// rank's strip, for those that its normals follow, and for the rank's own nodes.
-    std::vector<Vector3>      position, predicted, velocity, velocity_before;
-    std::vector<Vector3>      mean_velocity;    ///< of before and after the step, by compact number
-    std::vector<Vector3>      impulse;          ///< by constraint
-    std::vector<unsigned int> master_of;        ///< by constraint: the body of its master surface
-    std::vector<Vector3>      previous_impulse; ///< by constraint, those that act on the strip
-    std::vector<Vector3>      given_ratio;      ///< by constraint: of impulses, tangential over normal
-    std::vector<Vector3>      offset;           ///< by constraint of the strip, see solve_coulomb()
-    PairFriction              pair_friction;    ///< coefficients by constraint of the strip, factors of all
-    std::vector<Vector3>      imposed;          ///< by constraint of the strip: sliding in the last step, m/s
-    std::vector<Vector3>      before_entry;     ///< likewise: slip before it touched, over the step, m/s
-    std::vector<char>         slips;            ///< by constraint of the strip: as the last solve left it
-    std::vector<double>       slid;             ///< by constraint of the strip: since the last refresh, m
-    std::function<void(const PairRecord &)> take_record; ///< none: pairs are not recorded
-    std::vector<PairRecord::Totals>         totals;      ///< likewise; empty: not recorded
     std::vector<unsigned int> swept_nodes; ///< compact numbers of those that the strip's sweeps move
-    /// Effect of the constraints on a node of the strip or of this rank. It is summed in the same order on
-    /// all ranks that know the node, so that its position is the same on all of them.
-    struct NodeTerms
+
+    /// Of the involved nodes, by compact number. At the end of a step positions and velocities are known for
+    /// the nodes of this rank's strip, for those that its normals follow, and for the rank's own nodes.
+    struct OfNodes
     {
-      unsigned int node;         ///< compact number
-      int          local;        ///< number on this rank, -1 if it has no copy
-      bool         owned;        ///< by this rank
-      double       inverse_mass; ///< 1/kg
-      unsigned int begin, end;   ///< range of terms
-    };
-    struct Term
+      std::vector<Vector3> position, predicted, velocity, velocity_before;
+      std::vector<Vector3> mean_velocity; ///< of before and after the step
+    } nodes;
+
+    /// By constraint.
+    struct OfPairs
     {
-      unsigned int constraint;
-      double       coefficient;
-    };
-    std::vector<NodeTerms>                 node_terms;
-    std::vector<Term>                      terms;
+      std::vector<Vector3>            impulse;          ///< of the last step
+      std::vector<unsigned int>       master_of;        ///< the body of its master surface
+      std::vector<Vector3>            previous_impulse; ///< those that act on the strip
+      std::vector<Vector3>            given_ratio;      ///< of impulses, tangential over normal
+      std::vector<Vector3>            offset;           ///< of the strip, see solve_coulomb()
+      std::vector<Vector3>            imposed;          ///< of the strip: sliding in the last step, m/s
+      std::vector<Vector3>            before_entry; ///< likewise: slip before it touched, over the step, m/s
+      std::vector<char>               slips;        ///< of the strip: as the last solve left it
+      std::vector<double>             slid;         ///< of the strip: since the last refresh, m
+      std::vector<PairRecord::Totals> totals;       ///< likewise; empty: not recorded
+    } pairs;
+    PairFriction pair_friction; ///< coefficients by constraint of the strip, factors of all
+    std::function<void(const PairRecord &)> take_record; ///< none: pairs are not recorded
+
+    /// Which predictions go from rank to rank.
+    struct Exchange
+    {
+      std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
+      /// Data of the involved nodes of this rank, in their order, that a prediction needs.
+      struct Predicted
+      {
+        unsigned int node, local; ///< compact number, number on this rank
+        double       inverse_mass;
+      };
+      std::vector<Predicted> own;
+      /// Compact numbers of the nodes whose prediction goes to or comes from each rank.
+      std::vector<std::vector<unsigned int>> sent_to, received_from;
+      std::vector<double>                    send_buffer, receive_buffer;
+    } exchange;
+
+    /// Effect of the constraints on the nodes of the strip or of this rank. It is summed in the same order on
+    /// all ranks that know a node, so that its position is the same on all of them.
+    struct Effects
+    {
+      struct NodeTerms
+      {
+        unsigned int node;         ///< compact number
+        int          local;        ///< number on this rank, -1 if it has no copy
+        bool         owned;        ///< by this rank
+        double       inverse_mass; ///< 1/kg
+        unsigned int begin, end;   ///< range of terms
+      };
+      struct Term
+      {
+        unsigned int constraint;
+        double       coefficient;
+      };
+      std::vector<NodeTerms> of_nodes;
+      std::vector<Term>      terms;
+    } effects;
+
     std::vector<unsigned int>              rim_nodes;   ///< compact numbers
     std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
     unsigned int                           steps_since_normals = 0;
-    std::vector<double>                    send_buffer, receive_buffer;
-    double                                 time_since_refresh = 0., time_to_refresh = 0.;
-    double                       closing_speed = 0.; ///< largest speeds of both bodies' nodes, added, m/s
-    double                       travelled = 0., allowed_travel = 0.; ///< by that speed, m
+    struct UntilRefresh
+    {
+      double time = 0., due = 0.;                 ///< since the last one, and when the next must be, s
+      double closing_speed = 0.;                  ///< largest speeds of both bodies' nodes, added, m/s
+      double travelled = 0., allowed_travel = 0.; ///< by that speed, m
+    } until_refresh;
     std::vector<unsigned int>    own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork                  work;
     std::uint64_t                unconverged_steps = 0;
