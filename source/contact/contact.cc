@@ -178,7 +178,7 @@ namespace tread
     until_refresh.due = std::numeric_limits<double>::max();
     Vector3             turning{};
     unsigned int        n_loaded = 0;
-    std::vector<double> gap(coupling.rows.size()), until_refresh.closing_speed(coupling.rows.size());
+    std::vector<double> gap(coupling.rows.size()), approach(coupling.rows.size());
     for (unsigned int j = 0; j < coupling.rows.size(); ++j)
       {
         const MortarRow &row = coupling.rows[j];
@@ -188,8 +188,8 @@ namespace tread
             distance += coupling.entries[i].coefficient * all_x[coupling.entries[i].node];
             u += coupling.entries[i].coefficient * all_v[coupling.entries[i].node];
           }
-        gap[j]                         = dot(distance, row.normal);
-        until_refresh.closing_speed[j] = -dot(u, row.normal);
+        gap[j]      = dot(distance, row.normal);
+        approach[j] = -dot(u, row.normal);
         if (norm(impulse_of_node[row.slave]) > 0.)
           {
             const double sliding = norm(u - dot(u, row.normal) * row.normal);
@@ -219,7 +219,7 @@ namespace tread
     std::vector<char> is_near(involved.size(), false);
     for (unsigned int k = 0; k < chosen.size(); ++k)
       if (const unsigned int j = chosen[k];
-          norm(pairs.impulse[k]) > 0. || gap[j] <= until_refresh.closing_speed[j] * until_refresh.due)
+          norm(pairs.impulse[k]) > 0. || gap[j] <= approach[j] * until_refresh.due)
         for (unsigned int i = problem.constraints[k].begin; i < problem.constraints[k].end; ++i)
           is_near[problem.entries[i].node] = true;
     near_contact.clear();
@@ -444,8 +444,8 @@ namespace tread
       rows.push_back(nodes.position[i]);
     rows     = gathered(rows, comm);
     auto row = rows.begin();
-    for (const std::vector<unsigned int> &nodes : exchange.involved_of_rank)
-      for (const unsigned int i : nodes)
+    for (const std::vector<unsigned int> &of_rank : exchange.involved_of_rank)
+      for (const unsigned int i : of_rank)
         nodes.position[i] = *row++;
   }
 
