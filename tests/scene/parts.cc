@@ -624,9 +624,9 @@ namespace
                met({"Defect/Position (mm)=-1000", "Further wheels/Distances (mm)=1000"}));
     check.that("one beside the patch is not",
                !met({"Defect/Lateral position (mm)=18", "Defect/Width (mm)=8"}));
-    const std::vector<std::string> doubts = tread::doubts(*scene_of(dip, {"Defect/Position (mm)=45"}));
+    const std::vector<std::string> beyond = doubts(*scene_of(dip, {"Defect/Position (mm)=45"}));
     check.that("which is a doubt",
-               doubts.size() == 1 && has(doubts, "NOT reach the defect, from 45.00 to 65.00 mm"));
+               beyond.size() == 1 && has(beyond, "NOT reach the defect, from 45.00 to 65.00 mm"));
     check.that("and only then", doubts(*scene_of(dip)).empty());
   }
 
@@ -715,10 +715,9 @@ namespace
                tests::complaint<std::exception>([&]() {
                  scene_of(base, {line("metres.txt", [&](const double x) { return 1e-3 * 0.5 * waves(x); })});
                }).find("heights in m") != std::string::npos);
-    const std::vector<std::string> values =
-      scene_of({"Wheel/Mass (kg)=0.9", "Vehicle/Sprung mass (kg)=9", "Motion/Rolled distance (mm)=60",
-                "Mesh/Finest cell (mm)=0.1", "Rail/Density (kg per m3)=7.8"})
-        ->implausible_values();
+    const std::vector<std::string> values = implausible_values(
+      *scene_of({"Wheel/Mass (kg)=0.9", "Vehicle/Sprung mass (kg)=9", "Motion/Rolled distance (mm)=60",
+                 "Mesh/Finest cell (mm)=0.1", "Rail/Density (kg per m3)=7.8"}));
     check.that("masses and density in t", values.size() == 3 && has(values, "'Wheel/Mass (kg)' 0.9") &&
                                             has(values, "'Vehicle/Sprung mass (kg)' 9") &&
                                             has(values, "'Rail/Density (kg per m3)' 7.8"));
@@ -738,10 +737,9 @@ namespace
                    "support 1: ballast_damping_kN_s_per_m 33000"));
     // Where a wheel begins on its defect: the path is from -30 to 30 mm, the patch 16 mm long.
     const auto dip_from = [&](const std::string &position) {
-      return scene_of({"Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60", "Defect/Shape=dip",
-                       "Defect/Length (mm)=18", "Defect/Depth (mm)=0.08"},
-                      {"Defect/Position (mm)=" + position})
-        ->doubts();
+      return doubts(*scene_of({"Motion/Start (mm)=-30", "Motion/Rolled distance (mm)=60", "Defect/Shape=dip",
+                               "Defect/Length (mm)=18", "Defect/Depth (mm)=0.08"},
+                              {"Defect/Position (mm)=" + position}));
     };
     check.that("a wheel in the middle of its dip", has(dip_from("-40"), "begins on the defect"));
     check.that("a patch over its leading edge", has(dip_from("-25"), "begins on the defect"));
@@ -1243,7 +1241,7 @@ namespace
   /// A piece of a rail reaches as far as the patches on it, which lie in its inclined surface.
   void check_touched_piece(tests::Check &check)
   {
-    TouchedPiece piece{"nose", {}, 1e-3};
+    TouchedPiece piece{"nose", {}, 1e-3, {}};
     for (const double along : {0., 1.})
       {
         TouchedPiece::Touch touch{0.1 * along, {}};
