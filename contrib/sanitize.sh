@@ -27,7 +27,7 @@ readers=(
 )
 
 tests=(
-  reference_hertz reference_track reference_gap material_elastic material_plastic geometry_profiles geometry_surfaces geometry_facet_surface
+  reference_hertz reference_track reference_gap material_elastic material_plastic geometry_profiles geometry_slice_faults geometry_surfaces geometry_facet_surface
   bodies_shapes mesh_file mesh_profile_block mesh_whole_rail solid_patch solid_rotation solid_lanes solid_plastic contact_coulomb_solver
   contact_patch_test contact_momentum contact_incline dynamics_conservation dynamics_levels dynamics_cells track_ranks
   analysis_spectrum analysis_contact_patch checkpoint_members

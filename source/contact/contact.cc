@@ -630,10 +630,10 @@ namespace tread
         if (of_node.owned)
           {
             // The work is that of the force actually applied to the node, not of the impulse intended.
-            const Vector3 given = time_step * (force[of_node.local] - before);
-            work.on_nodes.add(-0.5 *
-                              dot(given, nodes.velocity_before[of_node.node] + nodes.predicted[of_node.node] +
-                                           of_node.inverse_mass * given));
+            const Vector3 passed_on = time_step * (force[of_node.local] - before);
+            work.on_nodes.add(-0.5 * dot(passed_on, nodes.velocity_before[of_node.node] +
+                                                      nodes.predicted[of_node.node] +
+                                                      of_node.inverse_mass * passed_on));
           }
       }
     add_work_of_pairs();

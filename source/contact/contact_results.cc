@@ -230,11 +230,11 @@ namespace tread
 
   std::vector<unsigned int> Contact::nodes_near() const
   {
-    std::vector<unsigned int> nodes;
+    std::vector<unsigned int> list;
     for (const unsigned int i : near_contact)
       if (const int local = surfaces.nodes[i].local; local >= 0)
-        nodes.push_back(local);
-    return nodes;
+        list.push_back(local);
+    return list;
   }
 
 

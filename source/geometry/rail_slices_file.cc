@@ -49,8 +49,32 @@ namespace tread
       return width((*high)[1] - share * height, (*high)[1]) / width((*low)[1], (*low)[1] + share * height);
     }
 
-    /// z up and y from low to high. The steel lies below an open line from low to high y. A line that is
-    /// closed, or nearly so, goes round a foot, which is wider than the head.
+    /// Whether most of what a line covers across lies nearer to its top than to its bottom.
+    bool is_high(const std::vector<Point> &line)
+    {
+      std::vector<std::pair<double, double>> pieces; // height and extent in y
+      double                                 total = 0.;
+      for (std::size_t k = 0; k + 1 < line.size(); ++k)
+        {
+          pieces.emplace_back(0.5 * (line[k][1] + line[k + 1][1]), std::abs(line[k + 1][0] - line[k][0]));
+          total += pieces.back().second;
+        }
+      std::sort(pieces.begin(), pieces.end());
+      double below = 0., median = pieces.front().first;
+      for (const auto &[height, extent] : pieces)
+        if (below < 0.5 * total)
+          {
+            below += extent;
+            median = height;
+          }
+      const auto [low, high] = std::minmax_element(
+        line.begin(), line.end(), [](const Point &a, const Point &b) { return a[1] < b[1]; });
+      return (*high)[1] - median <= median - (*low)[1];
+    }
+
+    /// z up and y from low to high. A line that does not run back in y is a running surface, most of which
+    /// lies near its top whatever gaps and grooves it has. Below one that runs back, from foot to foot, lies
+    /// the steel; one that is closed, or nearly so, goes round a foot, which is wider than the head.
     void set_upright(RailSlices &rail)
     {
       for (RailSlice &slice : rail.slices)
@@ -61,20 +85,23 @@ namespace tread
             std::reverse(slice.points.begin(), slice.points.end());
             std::reverse(slice.bodies.begin(), slice.bodies.end());
           }
-      constexpr double nearly = 0.25; // of the width
-      double           up     = 0.;   // more slices for it than against it
+      constexpr double nearly = 0.25, hardly = 1.2; // of the width: the gap between ends, the way across
+      double           up = 0.;                     // more slices for it than against it
       for (const RailSlice &slice : rail.slices)
         if (slice.points.size() > 2)
           {
             const auto [low, high] =
               std::minmax_element(slice.points.begin(), slice.points.end(),
                                   [](const Point &a, const Point &b) { return a[0] < b[0]; });
-            const bool is_closed =
-              slice.points.back()[0] - slice.points.front()[0] < nearly * ((*high)[0] - (*low)[0]);
-            up += (is_closed ? width_of_top_over_bottom(slice.points) <= 1.
-                             : twice_area_below(slice.points) >= 0.)
-                    ? 1.
-                    : -1.;
+            const double width = (*high)[0] - (*low)[0];
+            double       way   = 0.;
+            for (std::size_t k = 0; k + 1 < slice.points.size(); ++k)
+              way += std::abs(slice.points[k + 1][0] - slice.points[k][0]);
+            const bool is_up = way <= hardly * width ? is_high(slice.points)
+                               : slice.points.back()[0] - slice.points.front()[0] < nearly * width
+                                 ? width_of_top_over_bottom(slice.points) <= 1.
+                                 : twice_area_below(slice.points) >= 0.;
+            up += is_up ? 1. : -1.;
           }
       if (up < 0.)
         for (RailSlice &slice : rail.slices)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What the parameters of several sections have to say to each other.
 #include <tread/base/format.h>
-#include <tread/base/registry.h>
 #include <tread/mesh/rail_body.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/assumptions.h>

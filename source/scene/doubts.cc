@@ -11,7 +11,6 @@
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/islands.h>
 #include <tread/scene/scene.h>
-#include <tread/scene/surface_laws.h>
 #include <tread/solid/element.h>
 #include <tread/solid/surface_lattice.h>
 
@@ -134,6 +133,7 @@ namespace tread
         1e3 * scene.output.history_interval, 1e3 * scene.motion.rolled_distance * scene.motion.passages);
     }
 
+    /// Length of the cells under the path from begin to end, the longest where they are not alike, m.
     double cell_along(const Scene &scene, const double begin, const double end)
     {
       return is_finest(scene, begin, end) ? scene.mesh.finest_cell

@@ -72,6 +72,7 @@ namespace tread
         doubt = "'Rail/Mesh file': " + doubt;
     }
 
+    /// @param file names the mesh
     void check_slice(const Scene &scene, const std::string &file)
     {
       const FacetSurface::Range across = scene.rail_mesh()->surface.across(scene.path_begin(), 0.);

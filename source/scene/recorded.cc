@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Where in the rail results are taken.
+#include <tread/base/input_error.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/recorded.h>

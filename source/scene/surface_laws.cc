@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Laws of the surfaces in contact: friction, wear, damage.
 // The friction law of a scene, and how long it has to remember.
 #include <tread/base/format.h>
 #include <tread/base/registry.h>
@@ -20,6 +21,8 @@ namespace tread
     /// twice.
     constexpr double memory_room = 3., least_room = 1.5;
 
+    /// The least memory of a law that falls (m) with which slip under this load does not oscillate by itself;
+    /// 0: it does not without one.
     double needed_memory(const Scene &scene, const FrictionLaw &law)
     {
       // An upright wheel on a crown of its own radius stands for all: pressure and length go with the cube
@@ -156,7 +159,7 @@ namespace tread
                 1. - part * part);
           }
       }
-    return sum / weights;
+    return weights > 0. ? sum / weights : 1.;
   }
 
 

@@ -12,7 +12,6 @@
 #include <tread/scene/scene.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>

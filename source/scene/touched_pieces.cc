@@ -68,25 +68,25 @@ namespace tread
       });
       return found != pieces.end() ? *found : pieces.emplace_back(TouchedPiece{patch.body, {}, apart, {}});
     }
-
-    TouchedPiece::Line line_through(const std::vector<TouchedPiece::Touch> &touches)
-    {
-      TouchedPiece::Line line;
-      for (const TouchedPiece::Touch &touch : touches)
-        {
-          line.x += touch.x() / touches.size();
-          line.y += touch.patch.region.reference[1] / touches.size();
-        }
-      double xx = 0., xy = 0.;
-      for (const TouchedPiece::Touch &touch : touches)
-        {
-          xx += std::pow(touch.x() - line.x, 2);
-          xy += (touch.x() - line.x) * (touch.patch.region.reference[1] - line.y);
-        }
-      line.slope = xx > 0. ? xy / xx : 0.;
-      return line;
-    }
   } // namespace
+
+
+  void TouchedPiece::fit_line()
+  {
+    line = {};
+    for (const Touch &touch : touches)
+      {
+        line.x += touch.x() / touches.size();
+        line.y += touch.patch.region.reference[1] / touches.size();
+      }
+    double xx = 0., xy = 0.;
+    for (const Touch &touch : touches)
+      {
+        xx += std::pow(touch.x() - line.x, 2);
+        xy += (touch.x() - line.x) * (touch.patch.region.reference[1] - line.y);
+      }
+    line.slope = xx > 0. ? xy / xx : 0.;
+  }
 
 
   double TouchedPiece::inclination() const
@@ -164,7 +164,7 @@ namespace tread
           piece_of(way.pieces, patch, length / n).touches.push_back({way.axles.back(), patch});
       }
     for (TouchedPiece &piece : way.pieces)
-      piece.line = line_through(piece.touches);
+      piece.fit_line();
     way.bend = natural_spline(way.axles, way.height);
     std::sort(way.pieces.begin(), way.pieces.end(),
               [](const TouchedPiece &a, const TouchedPiece &b) { return a.y_low() < b.y_low(); });

@@ -43,6 +43,7 @@ namespace tread
         "'" + parameter + "': cannot read '" + file + "'");
     }
 
+    /// Of both ends, but for the place of the first support.
     TrackBeamParameters track_beam_alike(const Scene &scene)
     {
       TrackParameters alike = track_parameters(scene);

@@ -51,6 +51,7 @@ namespace tread
                "Armstrong-Frederick, with a yield stress"}};
     }
 
+    /// Tables along the path of which none lies on it, one line each.
     std::vector<std::string> tables_beside_the_path(const Scene &scene)
     {
       std::vector<std::string> lines;

@@ -15,6 +15,7 @@ namespace tread
 {
   namespace
   {
+    /// @throws InputError unless the motion lasts as long as the run, in positions that are allowed
     void check_guidance(const Scene &scene)
     {
       if (!scene.motion_of_wheelset())
@@ -77,6 +78,7 @@ namespace tread
           " mm along them: change 'Rail/Slices place (mm)', 'Margin (mm)' or 'Motion/Rolled distance (mm)'");
     }
 
+    /// Of a wheelset of which one wheel is looked at.
     void check_other_wheel(const Scene &scene)
     {
       // The roll follows from the contact of both, or the other wheel's rail is not known.

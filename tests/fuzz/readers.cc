@@ -106,7 +106,8 @@ namespace tread::fuzz
 
     void read_slices(const std::string &file)
     {
-      const SlicedRail      rail(read_rail_slices(file));
+      const SlicedRail rail(read_rail_slices(file));
+      rail.doubts();
       const Surface::Extent extent = rail.extent();
       for (const double u : {0., 0.3, 0.5, 1.})
         for (const double v : {0., 0.2, 0.7, 1.})

@@ -244,6 +244,22 @@ namespace
           std::pair("places in metres", moved(1., 1e-3))})
       check.that(what + (": " + said), said.find("in mm?") != std::string::npos);
 
+    // A surface with a groove, whose ends lie at its top.
+    for (const double up : {1., -1.})
+      {
+        const tests::TemporaryFolder folder;
+        const std::string            file = folder.path + "/groove.csv";
+        std::ofstream                out(file);
+        out << "x_mm,y_mm,z_mm\n";
+        for (const double x : {0., 50., 100.})
+          for (const Point &p : {Point(-40., -1.), Point(-20., 0.), Point(0., 0.), Point(20., -1.),
+                                 Point(22., -40.), Point(60., -40.), Point(62., -1.), Point(80., 0.)})
+            out << x << ',' << p[0] << ',' << up * p[1] << '\n';
+        out.close();
+        const auto top = SlicedRail(read_rail_slices(file)).height(0.05, -10e-3);
+        check.absolute("a groove: top, mm", top ? 1e3 * top->z : -1e3, 0., 0.3);
+      }
+
     // A rail from foot to foot, and with the line under the foot, whatever the points are dense on.
     const tests::TemporaryFolder folder;
     const std::vector<Point> outline{{-75., -172.}, {-75., -161.}, {-8., -140.}, {-8., -40.}, {-36., -30.},

@@ -1251,6 +1251,7 @@ namespace
         touch.patch.solution.y_end   = 4e-3;
         piece.touches.push_back(touch);
       }
+    piece.fit_line();
     check.relative("piece of a rail: lowest y of its patches, mm", 1e3 * piece.y_low(),
                    740. - 5. * std::cos(0.1), round_off);
     check.relative("piece of a rail: highest y of its patches, mm", 1e3 * piece.y_high(),

@@ -37,7 +37,8 @@ namespace tread
   /// @throws InputError if it cannot be read
   bool has_rail_slices(const std::string &file);
 
-  /// Refuses the points of a section that cross or touch themselves. @param where begins the line
+  /// Refuses a line through points that crosses itself, or comes back to one of them other than to close.
+  /// @param where begins the message
   /// @throws InputError
   void refuse_crossing_line(const std::string &where, const std::vector<dealii::Point<2>> &points);
 

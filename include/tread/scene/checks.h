@@ -4,6 +4,8 @@
 
 #include <tread/scene/scene.h>
 
+#include <string>
+
 namespace tread
 {
   // What of a scene does not make sense, by topic. All throw InputError, one line that names the parameters.
@@ -20,7 +22,10 @@ namespace tread
   void check_placed_mesh(const Scene &scene);
   /// Of a rail from a mesh file.
   void check_mesh_rail(const Scene &scene);
-  /// The change of its running surface, for messages.
+
+  // What other checks say of them.
+
+  /// The change of the running surface of a rail from a mesh file, for messages.
   std::string uneven_in_words(const Scene &scene);
   /// Of a law of friction that falls with slip: a memory that is too short to keep slip from oscillating by
   /// itself, one line; empty: none.

@@ -29,8 +29,6 @@
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
 #include <tread/scene/wheelset_motion.h>
-#include <tread/track/rail_base.h>
-#include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
 #include <cmath>
@@ -39,8 +37,6 @@
 
 namespace tread
 {
-  struct BeamUnderRail;
-  struct TrackBeamParameters;
   /// What a scene is read for.
   enum class SceneUse
   {
@@ -94,7 +90,7 @@ namespace tread
       return input;
     }
     /// All parameters of a scene with this parameter file, in the order of declaration. Only names and ranges
-    /// are checked. @throws InputError
+    /// are checked. @throws InputError, also for a file that sets nothing
     static std::vector<ParameterFile::Parameter> parameters_in(const std::string &file);
     /// Those among the changed ones that another parameter leaves without effect, one line each, with what
     /// they need.
@@ -127,15 +123,12 @@ namespace tread
     /// file
     Across across(const double time) const;
 
-
     /// Whether the measured head ends, at one side, before what is searched for contact:
     /// surfaces().half_width.
     bool has_narrow_head() const;
 
-
     /// Where the defect lies and how deep, and what the wheel is not round by, one line; empty: neither.
     std::string defect_in_words() const;
-
 
     /// Whether read() has laid the path on the rail; read_surfaces() does not.
     bool has_path() const
@@ -256,13 +249,13 @@ namespace tread
     {
       return shapes->patch;
     }
-    /// Where the largest stresses are looked for, x in m. @throws InputError if nothing says where the defect
-    /// ends.
+    /// Along the rail or the tread, m.
     struct Range
     {
       double begin, end;
     };
-    /// The parts of that patch, more than one where a worn profile touches with a gap between.
+    /// The parts of the patch under the static load, more than one where a worn profile touches with a gap
+    /// between.
     const std::vector<Island> &islands() const
     {
       return shapes->islands;

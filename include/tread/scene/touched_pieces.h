@@ -29,12 +29,10 @@ namespace tread
     std::string        body;    ///< its name in the slices; empty: none
     std::vector<Touch> touches; ///< while the axle moves forward
     double             apart;   ///< places at which contact is solved
-    /// The straight line nearest to the touches: y at x.
-    struct Line
-    {
-      double x = 0., y = 0., slope = 0.;
-    } line;
 
+    /// The straight line nearest to the touches, once they are all there: y() follows it.
+    void fit_line();
+    /// At x, on that line. @pre fit_line()
     double y(double x) const
     {
       return line.y + line.slope * (x - line.x);
@@ -44,6 +42,11 @@ namespace tread
     /// The furthest that patches reach to both sides.
     double y_low() const;
     double y_high() const;
+
+    struct Line
+    {
+      double x = 0., y = 0., slope = 0.;
+    } line;
   };
 
   /// What a wheel touches on its way over a rail of slices.
