@@ -66,7 +66,7 @@ with tempfile.TemporaryDirectory() as folder:
     with open(path("high.csv"), "w", encoding="utf-8") as file:
         file.writelines(f"{x},{y},{z if x != '60' else float(z) + 0.05}\n" for x, y, z in lines)
     high = run(program, CURVE, path("high"), [*short, "Rail/Shape=slices", f"Rail/Slices={path('high.csv')}", "Rail/Slices y (mm)=0", "Rail/Inclination=none"], command="reference")
-    of_slices = lambda summary: [line for line in summary["warnings"] if "fit its neighbours" in line]
+    of_slices = lambda summary: [line for line in summary["warnings"] if "fit the neighbours" in line]
     check.that("a slice that is 50 um too high is named, others are not", len(of_slices(high)) == 1 and "slice at 60 mm" in of_slices(high)[0]
                and "up to 0.05 mm" in of_slices(high)[0] and not of_slices(listed) + of_slices(slices))
 
