@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/base/lagrange.h>
 #include <tread/base/median.h>
 #include <tread/geometry/profile_faults.h>
 
@@ -45,10 +46,7 @@ namespace tread
         std::array<double, 2> place{0., 0.};
         for (unsigned int i = 0; i < 4; ++i)
           {
-            double weight = 1.;
-            for (unsigned int k = 0; k < 4; ++k)
-              if (k != i)
-                weight *= (s - t[k]) / (t[i] - t[k]);
+            const double weight = lagrange_weight([&](const std::size_t k) { return t[k]; }, 4, i, s);
             place[0] += weight * of[i]->y;
             place[1] += weight * of[i]->z;
           }

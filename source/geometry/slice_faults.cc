@@ -2,6 +2,7 @@
 // What is wrong with slices of a rail, by themselves and beside their neighbours.
 #include <tread/base/format.h>
 #include <tread/base/input_error.h>
+#include <tread/base/lagrange.h>
 #include <tread/geometry/rail_slices.h>
 
 #include <algorithm>
@@ -46,14 +47,11 @@ namespace tread
       constexpr double    usual_norm = 1.5; // of four equidistant slices around the one between them
       std::vector<double> weights;
       double              squares = 1.;
-      for (const std::size_t k : others)
+      for (std::size_t k = 0; k < others.size(); ++k)
         {
-          double weight = 1.;
-          for (const std::size_t l : others)
-            if (l != k)
-              weight *= (x[slice] - x[l]) / (x[k] - x[l]);
-          weights.push_back(weight);
-          squares += weight * weight;
+          weights.push_back(
+            lagrange_weight([&](const std::size_t l) { return x[others[l]]; }, others.size(), k, x[slice]));
+          squares += weights.back() * weights.back();
         }
       const std::vector<Point> &own  = places[slice];
       const double              less = less_for_norm ? std::max(1., std::sqrt(squares) / usual_norm) : 1.;

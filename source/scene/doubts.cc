@@ -465,11 +465,9 @@ namespace tread
           of_node[i] = scene.surfaces().gap(y + (i - 1.) * cell);
         for (unsigned int k = 1; k < n_between; ++k)
           {
-            const double s = double(k) / n_between; // Lagrange's cubic
-            const double of_nodes =
-              -s * (s - 1.) * (s - 2.) / 6. * of_node[0] + (s + 1.) * (s - 1.) * (s - 2.) / 2. * of_node[1] -
-              (s + 1.) * s * (s - 2.) / 2. * of_node[2] + (s + 1.) * s * (s - 1.) / 6. * of_node[3];
-            if (const double off = scene.surfaces().gap(y + s * cell) - of_nodes; std::isfinite(off))
+            const double s = double(k) / n_between;
+            if (const double off = scene.surfaces().gap(y + s * cell) - cubic_between(of_node, s);
+                std::isfinite(off))
               {
                 sum += off * off;
                 ++n;

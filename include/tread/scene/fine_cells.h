@@ -34,7 +34,7 @@ namespace tread
   bool has_window(const Scene &scene);
   /// What needs a mesh that stays during the run; "": nothing does.
   std::string keeps_mesh(const Scene &scene);
-  /// Way in one window where 'Mesh/Window length (mm)' does not say it, m.
+  /// Way in one window, m: 'Mesh/Window length (mm)', or what is usual where that is 0.
   double usual_window(const Scene &scene);
   /// Where the wheel rolls in each window of fine cells, one after the other, x in m: the whole way
   /// without one. Borders lie where the first cubes come and the last ones go, others at equal distances
