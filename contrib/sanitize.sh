@@ -51,7 +51,7 @@ build_sanitized()
 
 check_tests()
 {
-  build_sanitized "${tests[@]}"
+  build_sanitized unit_tests reference_tests
   local any
   any=$(IFS='|' && echo "${tests[*]}")
   ctest --test-dir build-sanitize --output-on-failure --no-tests=error -j "$jobs" -R "^($any)(\.|\$)"
@@ -74,8 +74,8 @@ check_checkpoints()
 check_threads()
 {
   cmake --preset threads > /dev/null
-  cmake --build build-threads -j "$jobs" --target reference_threads
-  TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1" build-threads/tests/reference_threads
+  cmake --build build-threads -j "$jobs" --target reference_tests
+  TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1" build-threads/tests/reference_tests reference_threads
 }
 
 # The rest of the program is that of build/.

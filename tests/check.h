@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -102,12 +104,37 @@ namespace tread::tests
     std::string  failed_first;
   };
 
-  /// What stands on the command line behind the program's name: the part of the test that is wanted.
+  /// What stands on the command line behind the test's name: the parts of it that are wanted.
   using Arguments = std::vector<std::string>;
+
+  using Test = void (*)(Check &, const Arguments &);
+
+  /// The tests of a program by their names.
+  inline std::map<std::string, Test> &all_tests()
+  {
+    static std::map<std::string, Test> tests;
+    return tests;
+  }
+
+  /// Makes a test known to main.cc.
+  struct Registered
+  {
+    Registered(const std::string &name, const Test test)
+    {
+      if (!all_tests().emplace(name, test).second)
+        std::fprintf(stderr, "two tests have the name %s\n", name.c_str()), std::abort();
+    }
+  };
 } // namespace tread::tests
 
-/// The test: each program defines it, and main.cc calls it. It lies in no namespace, like main, so that a
-/// test's own names go before those of tread::tests.
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &arguments);
+/// TREAD_TEST(contact_bars)(Check &check, const Arguments &arguments) {...}: a test, which knows what stands
+/// in the file's namespace contact_bars. Files of a floor can be compiled as one therefore.
+#define TREAD_TEST(name)                                                                                     \
+  namespace name                                                                                             \
+  {                                                                                                          \
+    void                           run_test(tread::tests::Check &, const tread::tests::Arguments &);         \
+    const tread::tests::Registered registered(#name, run_test);                                              \
+  }                                                                                                          \
+  void name::run_test
 
 #endif

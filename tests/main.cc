@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The main function of all tests. Compiled with TREAD_TESTS_WITHOUT_MPI it serves those of the reference
-// library, which is there without deal.II.
+// The main function of all tests: PROGRAM TEST [PART]... runs one, PROGRAM alone lists them. Compiled with
+// TREAD_TESTS_WITHOUT_MPI it serves those of the reference library, which is there without deal.II.
 #include "check.h"
 
 #ifndef TREAD_TESTS_WITHOUT_MPI
@@ -17,14 +17,24 @@ namespace
 {
   /// 0 when everything was as it must be, otherwise 1. Rank 0 prints all comparisons; another rank speaks
   /// only when one of its own fails.
-  int run(const tests::Arguments &arguments, const unsigned int rank, const unsigned int n_ranks)
+  int run(tests::Arguments arguments, const unsigned int rank, const unsigned int n_ranks)
   {
+    const auto &all   = tests::all_tests();
+    const auto  found = arguments.empty() ? all.end() : all.find(arguments.front());
+    if (found == all.end())
+      {
+        std::fprintf(stderr, "no test '%s'; there are:\n", arguments.empty() ? "" : arguments[0].c_str());
+        for (const auto &[name, test] : all)
+          std::fprintf(stderr, "%s\n", name.c_str());
+        return 1;
+      }
+    arguments.erase(arguments.begin());
     tests::Check check;
     try
       {
         if (rank != 0 && !std::freopen("/dev/null", "w", stdout))
           throw std::runtime_error("cannot open /dev/null");
-        run_test(check, arguments);
+        found->second(check, arguments);
       }
     catch (const std::exception &error)
       {

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 namespace tread::tests
@@ -33,12 +32,6 @@ namespace tread::tests
       return path + "/" + name;
     }
   };
-
-  inline std::string text_of_file(const std::string &path)
-  {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
 } // namespace tread::tests
 
 #endif

@@ -11,7 +11,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_chatter
 {
   constexpr double       cell = 1e-3, half = 6e-3, largest = 0.4; // m, m, m/s
   constexpr unsigned int n_steps = 60;
@@ -50,10 +50,10 @@ namespace
       }
     return average.slip_chatter();
   }
-} // namespace
+} // namespace analysis_chatter
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_chatter)(tests::Check &check, const tests::Arguments &)
 {
   check.below("steady slip, straight over the patch", chatter(1., 0.), 1e-6);
   check.below("steady slip, curved", chatter(2., 0.), 0.01);

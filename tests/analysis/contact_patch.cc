@@ -13,7 +13,7 @@
 using namespace tread;
 using dealii::numbers::PI;
 
-namespace
+namespace analysis_contact_patch
 {
   constexpr double a = 6e-3, b = 4e-3, cell = 0.1e-3;              // m
   constexpr double largest = 1e9, shear_along = 2e8, twist = 3e10; // Pa, Pa, Pa/m
@@ -120,10 +120,10 @@ namespace
                    1e-6 * average.measures().max_pressure, 1e3, 1e-12);
     check.relative("average: mean of the steps' areas (mm2)", 1e6 * average.measures().area, 1.25, 1e-12);
   }
-} // namespace
+} // namespace analysis_contact_patch
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_contact_patch)(tests::Check &check, const tests::Arguments &)
 {
   check_measures(check);
   check_average(check);

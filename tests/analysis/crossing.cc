@@ -16,7 +16,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_crossing
 {
   constexpr double radius = 0.46;
   constexpr double nan    = std::numeric_limits<double>::quiet_NaN();
@@ -272,10 +272,10 @@ namespace
     std::ofstream(table) << "x_mm,y_mm,z_mm,part\n0,0,0,1\n0,1,0,1\n0,2,0,3\n";
     refused(table, "row 3");
   }
-} // namespace
+} // namespace analysis_crossing
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_crossing)(tests::Check &check, const tests::Arguments &)
 {
   constant(check);
   ramp(check);

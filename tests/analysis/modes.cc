@@ -21,7 +21,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_modes
 {
   constexpr double pi = dealii::numbers::PI;
 
@@ -468,10 +468,10 @@ namespace
     check.relative("seat: sinks under its weight of 1 N, nm", 1e9 * sunk,
                    1e9 / bare.springs.ballast_stiffness, 0.05);
   }
-} // namespace
+} // namespace analysis_modes
 
 
-void run_test(tests::Check &check, const tests::Arguments &arguments)
+TREAD_TEST(analysis_modes)(tests::Check &check, const tests::Arguments &arguments)
 {
   if (arguments.empty())
     {

@@ -13,7 +13,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_profile_wear
 {
   constexpr double pi = std::numbers::pi;
 
@@ -226,10 +226,10 @@ namespace
     check.below("half the change in a step, about twice as many", difference(worn(slow), worn(quick)), 0.01);
     check.that("which are more", slow.steps().size() > 1.5 * quick.steps().size());
   }
-} // namespace
+} // namespace analysis_profile_wear
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_profile_wear)(tests::Check &check, const tests::Arguments &)
 {
   areas(check);
   early(check);

@@ -18,7 +18,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace analysis_rail_stress
 {
   constexpr double length = 0.06, half_width = 0.015, coarse = 5e-3, fine = 2.5e-3;
 
@@ -437,9 +437,9 @@ namespace
     check.relative("face: nothing but shear", von_mises_at_face(reference, reference, steel, 0., q),
                    std::sqrt(3.) * q, 1e-12);
   }
-} // namespace
+} // namespace analysis_rail_stress
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_rail_stress)(tests::Check &check, const tests::Arguments &)
 {
   Body body =
     tests::make_box("block", Point<3>(0., -half_width, -0.02), Point<3>(length, half_width, 0.), {{12, 6, 4}},

@@ -9,7 +9,7 @@
 
 using namespace tread;
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_sleeper_stress)(tests::Check &check, const tests::Arguments &)
 {
   const MPI_Comm comm = MPI_COMM_WORLD;
 

@@ -10,7 +10,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_spectrum
 {
   constexpr double pi = 3.14159265358979323846;
 
@@ -23,9 +23,9 @@ namespace
       values[i] = signal(interval * i);
     return values;
   }
-} // namespace
+} // namespace analysis_spectrum
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_spectrum)(tests::Check &check, const tests::Arguments &)
 {
   const double dt = 2.3e-5;
 

@@ -17,7 +17,7 @@ using namespace tread;
 using dealii::Point;
 using Stress = StressRecovery::Stress;
 
-namespace
+namespace analysis_stress_recovery
 {
   double depth_of(const Point<3> &p)
   {
@@ -338,9 +338,9 @@ namespace
         check.below(name + "stress at the surface less the traction, MPa", 1e-6 * largest(unbalanced), 1e-6);
       }
   }
-} // namespace
+} // namespace analysis_stress_recovery
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_stress_recovery)(tests::Check &check, const tests::Arguments &)
 {
   check_patch(check);
   check_hertz(check);

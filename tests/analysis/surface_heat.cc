@@ -17,7 +17,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_surface_heat
 {
   constexpr double pi = std::numbers::pi;
 
@@ -220,10 +220,10 @@ namespace
                                                              RegimeWearRate::make(section);
                                                            }).find("must rise") != std::string::npos);
   }
-} // namespace
+} // namespace analysis_surface_heat
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_surface_heat)(tests::Check &check, const tests::Arguments &)
 {
   constant_flux(check);
   band(check);

@@ -14,7 +14,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_wheel_flat
 {
   ProfileCurve cylinder()
   {
@@ -318,10 +318,10 @@ namespace
     refused("waves: 2.5=0.1", "whole number");
     refused("waves:", "no wave");
   }
-} // namespace
+} // namespace analysis_wheel_flat
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_wheel_flat)(tests::Check &check, const tests::Arguments &)
 {
   scan(check);
   contact(check);

@@ -15,7 +15,7 @@
 
 using namespace tread;
 
-namespace
+namespace analysis_wheelset
 {
   constexpr double radius = 0.46;
 
@@ -643,9 +643,9 @@ namespace
     refuses("a load that nothing carries", "carries",
             [&] { contact_under_load(s1002, rolling_at(40.), {}, 1e9); });
   }
-} // namespace
+} // namespace analysis_wheelset
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(analysis_wheelset)(tests::Check &check, const tests::Arguments &)
 {
   check_curves(check);
   check_conicity(check);

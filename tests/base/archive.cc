@@ -9,7 +9,7 @@
 
 using namespace tread;
 
-namespace
+namespace base_archive
 {
   /// As a class names what it keeps.
   struct State
@@ -50,9 +50,9 @@ namespace
     std::memcpy(bytes.data() + place, &value, sizeof value);
     return bytes;
   }
-} // namespace
+} // namespace base_archive
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(base_archive)(tests::Check &check, const tests::Arguments &)
 {
   const std::string good = stored(State());
   State             back;

@@ -10,7 +10,7 @@
 
 using namespace tread;
 
-namespace
+namespace base_csv_table
 {
   const std::string file = "base_csv_table.csv";
 
@@ -21,10 +21,10 @@ namespace
       file, [](const std::string &name) { return name != "remark"; }, "cannot be read",
       [](const std::string &name) { return name == "name"; });
   }
-} // namespace
+} // namespace base_csv_table
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(base_csv_table)(tests::Check &check, const tests::Arguments &)
 {
   const CsvTable table = read("\xef\xbb\xbfx, y ,name,remark\r\n1.5,+2.5e-1, a b ,-\r\n\r\n -3 ,+4,c,+\r\n");
   check.that("names of columns", table.names() == std::vector<std::string>{"x", "y", "name"});

@@ -12,7 +12,7 @@
 
 using namespace tread;
 
-namespace
+namespace base_reproducible_sum
 {
   constexpr unsigned int n_terms = 20000, n_orders = 20;
 
@@ -164,10 +164,10 @@ namespace
       }
     check.that("quarters of rounded numbers have the same sum in any order", equal);
   }
-} // namespace
+} // namespace base_reproducible_sum
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(base_reproducible_sum)(tests::Check &check, const tests::Arguments &)
 {
   rounding(check);
   random_orders(check);

@@ -11,7 +11,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_bars
 {
   constexpr double edge = 0.004; // of the square cross-section, m
 
@@ -88,9 +88,9 @@ namespace
             (momentum[1][0] / mass[1] - momentum[0][0] / mass[0]) / relative_speed,
             (energy.contact + energy.damping) / start_kinetic, gap};
   }
-} // namespace
+} // namespace contact_bars
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_bars)(Check &check, const tests::Arguments &)
 {
   ElasticMaterial material;
   material.poisson_ratio = 0.;

@@ -15,7 +15,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_cattaneo)(Check &check, const tests::Arguments &)
 {
   const double                 radius = 0.05, force = 1000., friction = 0.3; // m, N
   const reference::Elastic     steel;

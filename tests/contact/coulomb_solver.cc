@@ -15,7 +15,7 @@ using namespace tread;
 using tests::Check;
 using tests::size;
 
-namespace
+namespace contact_coulomb_solver
 {
   constexpr unsigned int n_constraints = 200, n_problems = 20; // with each friction coefficient
 
@@ -389,9 +389,9 @@ namespace
     check.that("sweeps end at their largest number", cut.sweeps <= few.max_sweeps + 1);
     check.that("and the change tells that they had not come to an end", cut.change > 100. * few.tolerance);
   }
-} // namespace
+} // namespace contact_coulomb_solver
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_coulomb_solver)(Check &check, const tests::Arguments &)
 {
   friction_of_pressure(check);
   std::mt19937 random(1);

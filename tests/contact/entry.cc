@@ -9,7 +9,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_entry
 {
   struct Result
   {
@@ -71,10 +71,10 @@ namespace
       }
     return result;
   }
-} // namespace
+} // namespace contact_entry
 
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_entry)(Check &check, const tests::Arguments &)
 {
   for (const double share : {0.1, 0.3, 0.85})
     {

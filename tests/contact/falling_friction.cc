@@ -17,7 +17,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_falling_friction
 {
   constexpr double static_coefficient = 0.5, kinetic_coefficient = 0.2, slip_speed = 0.5; // m/s
   constexpr double fall    = static_coefficient - kinetic_coefficient;
@@ -430,9 +430,9 @@ namespace
       }
     check.that("a law that would rise is refused", refused);
   }
-} // namespace
+} // namespace contact_falling_friction
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_falling_friction)(Check &check, const tests::Arguments &)
 {
   check_one_node(check);
   check_block(check);

@@ -15,7 +15,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_hard_meshes
 {
   constexpr double gravity = 500., friction = 0.2, speed = 0.5; // m/s^2, -, m/s
   constexpr double edge = 0.02, height = 0.01;                  // of the block, m
@@ -241,9 +241,9 @@ namespace
     check_sliding(check, name, test, slide);
     check_standing(check, name, test, slide);
   }
-} // namespace
+} // namespace contact_hard_meshes
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_hard_meshes)(Check &check, const tests::Arguments &)
 {
   // 1e5 steps under load.
   check_case(check, {"alike", plate({{12, 8, 2}}), block({{4, 4, 2}}), 0.5, true, false, 1.52, 1e-9});

@@ -15,7 +15,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_hertz
 {
   struct Contacts
   {
@@ -109,9 +109,9 @@ namespace
     // At most 1160 with the damping of what still moves; with that of another frequency twice as many.
     check.that(name + "at rest within 1400 iterations", r.iterations <= 1400);
   }
-} // namespace
+} // namespace contact_hertz
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_hertz)(Check &check, const tests::Arguments &)
 {
   const double modulus = 210e9 / (2. * (1. - 0.09));
   const double pi      = dealii::numbers::PI;

@@ -16,7 +16,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_impact
 {
   constexpr double radius = 0.01; // m
 
@@ -181,10 +181,10 @@ namespace
                 static_cast<unsigned long long>(dynamics.state.n_steps), impact.mass / sphere_mass(steel));
     return impact;
   }
-} // namespace
+} // namespace contact_impact
 
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_impact)(Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
   const double          modulus = plane_modulus(steel), mass = sphere_mass(steel);

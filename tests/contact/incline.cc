@@ -12,7 +12,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_incline
 {
   constexpr double gravity = 9.81, slope = 0.35; // m/s^2, rad
   constexpr double length = 0.08, height = 0.02; // of the block, m
@@ -107,9 +107,9 @@ namespace
       result.drift = std::max(result.drift, std::abs(dot(dynamics.state.position(i) - before[i], down)));
     return result;
   }
-} // namespace
+} // namespace contact_incline
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_incline)(Check &check, const tests::Arguments &)
 {
   for (const bool elastic : {false, true})
     for (const unsigned int slave : {1u, 0u})

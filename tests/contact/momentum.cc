@@ -17,7 +17,7 @@ using tests::Check;
 using tests::size;
 using dealii::Point;
 
-namespace
+namespace contact_momentum
 {
   constexpr unsigned int n_steps = 1600;
   constexpr double       edge = 0.02, face = 0.02 / 5.; // of the blocks, and of their smaller faces, m
@@ -122,9 +122,9 @@ namespace
         result.velocities[mesh.node_key(i)] = dynamics.state.v[i];
     return result;
   }
-} // namespace
+} // namespace contact_momentum
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_momentum)(Check &check, const tests::Arguments &)
 {
   for (const unsigned int slave : {0u, 1u})
     {

@@ -18,7 +18,7 @@ using namespace tread;
 using tests::size;
 using dealii::Point;
 
-namespace
+namespace contact_normals
 {
   constexpr double edge = 0.02, radius = 0.05; // of the blocks and of the interface, m
 
@@ -95,10 +95,10 @@ namespace
                       normal[2] * cross(columns[0], columns[1]);
     return (1. / size(n)) * n;
   }
-} // namespace
+} // namespace contact_normals
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(contact_normals)(tests::Check &check, const tests::Arguments &)
 {
   for (const Vector3 rotation : {Vector3{}, Vector3{7., -4., 2., 0.}})
     {

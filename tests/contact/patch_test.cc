@@ -16,7 +16,7 @@ using tests::Check;
 using tests::size;
 using dealii::Point;
 
-namespace
+namespace contact_patch_test
 {
   constexpr double edge = 0.02, pressure = 100e6; // m, Pa
 
@@ -187,9 +187,9 @@ namespace
                 size(moment[0] + moment[1]) / (load * edge), 1e-9);
     check.that(test.name + ": 0.1 % at one node is noticed", deviation(states, 1.001) > 1e-6);
   }
-} // namespace
+} // namespace contact_patch_test
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_patch_test)(Check &check, const tests::Arguments &)
 {
   for (const Case &test :
        {Case{"1:1", 4, 4, 0, 0.}, Case{"2:3, slave below", 2, 3, 0, 0.},

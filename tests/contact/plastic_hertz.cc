@@ -14,7 +14,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace plastic_hertz
 {
   constexpr double radius = 0.05, yield = 500e6; // m, Pa
 
@@ -65,10 +65,10 @@ namespace
         }
     return result;
   }
-} // namespace
+} // namespace plastic_hertz
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(plastic_hertz)(tests::Check &check, const tests::Arguments &)
 {
   const double modulus = 210e9 / (2. * (1. - 0.09)), pi = dealii::numbers::PI;
   // The force of a given largest pressure p0 (Hertz): F = pi^3 p0^3 R^2/(6 E*^2).

@@ -18,7 +18,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace plastic_taylor
 {
   constexpr double length = 32.4e-3, radius = 3.2e-3; // m
 
@@ -154,10 +154,10 @@ namespace
     std::fflush(stdout);
     return result;
   }
-} // namespace
+} // namespace plastic_taylor
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(plastic_taylor)(tests::Check &check, const tests::Arguments &)
 {
   const Result coarse = impact(4, 0.08), fine = impact(6, 0.05);
   check.relative("length, 8 cells across, mm", 1e3 * coarse.length, 21.45, 0.02);

@@ -15,7 +15,7 @@
 using namespace tread;
 using tests::Check;
 
-namespace
+namespace contact_quadrature
 {
   constexpr unsigned int highest = 4; // degree of a product of two bilinear functions
 
@@ -105,10 +105,10 @@ namespace
         worst = std::max(worst, std::abs(found[k][i] - expected[i][k]));
     check.below(name + ": shape functions at its places", worst, 1e-9);
   }
-} // namespace
+} // namespace contact_quadrature
 
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_quadrature)(Check &check, const tests::Arguments &)
 {
   check_shape_functions(check, "parallelogram", {{{0., 0.}, {1., 0.2}, {1.3, 1.}, {0.3, 0.8}}});
   check_shape_functions(check, "trapezoid", {{{0., 0.}, {1., 0.}, {0.8, 1.}, {0.1, 1.}}});

@@ -13,7 +13,7 @@ using namespace tread;
 using tests::Check;
 using dealii::Point;
 
-namespace
+namespace contact_return
 {
   constexpr double gravity = 9.81, friction = 0.5, height = 0.02;
 
@@ -101,9 +101,9 @@ namespace
     result.friction_loss = dynamics.ledger().friction - loss0;
     return result;
   }
-} // namespace
+} // namespace contact_return
 
-void run_test(Check &check, const tests::Arguments &)
+TREAD_TEST(contact_return)(Check &check, const tests::Arguments &)
 {
   for (const unsigned int slave : {1u, 0u})
     {

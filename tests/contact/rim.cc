@@ -13,7 +13,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace contact_rim
 {
   constexpr double border = 10e-3; // of the strip, m
 
@@ -65,9 +65,9 @@ namespace
       }
     return result;
   }
-} // namespace
+} // namespace contact_rim
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(contact_rim)(tests::Check &check, const tests::Arguments &)
 {
   const Mesh            mesh(MPI_COMM_WORLD, bodies(0.));
   const ContactSurfaces surfaces(mesh);

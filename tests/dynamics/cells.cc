@@ -16,7 +16,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_cells
 {
   /// What check_cells() says of a block whose nodes were moved; "" if nothing.
   std::string complaint(const std::function<Point<3>(const Point<3> &)> &moved,
@@ -43,10 +43,10 @@ namespace
     std::printf("critical step over the new one %.4f: '%s'\n", growth, text.c_str());
     return text;
   }
-} // namespace
+} // namespace dynamics_cells
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_cells)(tests::Check &check, const tests::Arguments &)
 {
   double     growth;
   const auto stretch = [](const double factor) {

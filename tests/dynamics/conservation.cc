@@ -16,7 +16,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_conservation
 {
   struct Sums
   {
@@ -108,10 +108,10 @@ namespace
     check.below(name + ": drift of angular momentum", angular, 1e-12);
     check.below(name + ": change of energy", energy, allowed_energy);
   }
-} // namespace
+} // namespace dynamics_conservation
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_conservation)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
   DynamicsParameters    parameters;

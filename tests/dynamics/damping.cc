@@ -16,7 +16,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_damping
 {
   constexpr double edge = 0.01; // m
 
@@ -115,10 +115,10 @@ namespace
                       worst, 1e-12);
         }
   }
-} // namespace
+} // namespace dynamics_damping
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_damping)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
   const double square = 4. * (3. * steel.lame() + 2. * steel.shear_modulus()) / (steel.density * edge * edge);

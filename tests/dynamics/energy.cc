@@ -20,7 +20,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_energy
 {
   struct Case
   {
@@ -234,10 +234,10 @@ namespace
                    1e-12);
     check.relative("free hub: the axle turns with the yaw", -hub.axle()[0], std::sin(hub.motion.yaw), 1e-14);
   }
-} // namespace
+} // namespace dynamics_energy
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_energy)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
   hub_energy(check, Drive::torque, 1., 0.);

@@ -17,7 +17,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_levels
 {
   /// Cells of 10, 5 and 2.5 mm.
   Body graded_block(const tests::Side side, const Boundary boundary)
@@ -312,10 +312,10 @@ namespace
                 plain.dynamics->ledger().residual_share(), 1e-4);
     check.below("push: deflection against one step for all", worst_deflection / largest_deflection, 2e-3);
   }
-} // namespace
+} // namespace dynamics_levels
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_levels)(tests::Check &check, const tests::Arguments &)
 {
   levels_of_cells(check);
   step_of_slow_cells(check);

@@ -18,7 +18,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_own_part
 {
   // The part.
 
@@ -87,10 +87,10 @@ namespace
     const double              height, strength;
     std::vector<unsigned int> nodes; ///< of this rank
   };
-} // namespace
+} // namespace dynamics_own_part
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_own_part)(tests::Check &check, const tests::Arguments &)
 {
   constexpr double      edge = 10e-3, gap = 1e-3, force = 100.; // m, m, N at first
   constexpr unsigned    n = 4, n_face = (n + 1) * (n + 1);

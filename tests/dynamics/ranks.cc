@@ -20,7 +20,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_ranks
 {
   struct History
   {
@@ -180,10 +180,10 @@ namespace
     check.absolute("nodes of a boundary that a rank does not know",
                    dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD), 0., 0.);
   }
-} // namespace
+} // namespace dynamics_ranks
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_ranks)(tests::Check &check, const tests::Arguments &)
 {
   using dealii::Utilities::MPI::max;
 

@@ -22,7 +22,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_stability
 {
   Body graded_block()
   {
@@ -175,10 +175,10 @@ namespace
                     2. / (solid_parameters.highest_frequency * dynamics.critical_step().seconds()), 1.01);
       }
   }
-} // namespace
+} // namespace dynamics_stability
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_stability)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
 

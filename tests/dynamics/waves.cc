@@ -16,7 +16,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace dynamics_waves
 {
   constexpr double pi       = dealii::numbers::PI;
   constexpr double traction = 10e6; // Pa
@@ -319,10 +319,10 @@ namespace
     // 48 cells a wave: dispersion of 1e-3.
     check.relative("Rayleigh wave speed (m/s)", 2. * pi / (period * k), c, 0.005);
   }
-} // namespace
+} // namespace dynamics_waves
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(dynamics_waves)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial material;
   check.absolute("pressure wave speed of steel (m/s)", material.pressure_wave_speed(), 6020.2, 0.1);

@@ -14,7 +14,7 @@ using namespace tread;
 using dealii::Point;
 using Height = std::function<double(double, double)>;
 
-namespace
+namespace geometry_facet_surface
 {
   constexpr double crown = 0.3; // m
 
@@ -202,9 +202,9 @@ namespace
     check.that("a surface that looks down is refused", refusal(down).find("looks down") != std::string::npos);
     check.that("no faces are refused", !refusal(Faces()).empty());
   }
-} // namespace
+} // namespace geometry_facet_surface
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(geometry_facet_surface)(tests::Check &check, const tests::Arguments &)
 {
   check_crowns(check);
   check_polynomial(check);

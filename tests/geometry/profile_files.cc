@@ -26,7 +26,7 @@
 
 using namespace tread;
 
-namespace
+namespace geometry_profile_files
 {
   using Point = dealii::Point<2>;
   using Curve = std::vector<Point>; ///< mm, from low to high y, z up, the flange at y < 0
@@ -655,9 +655,9 @@ namespace
     const ProfileCurve::Place there = curve.at(curve.knots()[25]);
     check.absolute("a point given twice: slope there", there.dz / there.dy, -5e-3 / 0.3, 1e-5);
   }
-} // namespace
+} // namespace geometry_profile_files
 
-void run_test(tests::Check &check, const tests::Arguments &arguments)
+TREAD_TEST(geometry_profile_files)(tests::Check &check, const tests::Arguments &arguments)
 {
   check_smoothing(check);
   check_repeated(check);

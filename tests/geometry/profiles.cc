@@ -13,7 +13,7 @@
 
 using tread::RailProfile;
 
-namespace
+namespace geometry_profiles
 {
   /// Published values: cm^2, mm, cm^4, cm^4. They are met within 0.3 %: the centroid of 54E1 is given to 0.1
   /// mm only, and its smallest roundings are not published.
@@ -125,9 +125,9 @@ namespace
                  std::string::npos);
     says("a file", tread::advice_on_tread("profiles/lm.txt"), {});
   }
-} // namespace
+} // namespace geometry_profiles
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(geometry_profiles)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   check_names(check);
   // EN 13674-1 (area, centroid, second moments); heads by the drawings' arcs.

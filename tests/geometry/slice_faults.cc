@@ -14,7 +14,7 @@
 
 using namespace tread;
 
-namespace
+namespace geometry_slice_faults
 {
   using Point = dealii::Point<2>;
 
@@ -310,10 +310,10 @@ namespace
     check.that("two points exchanged: " + said_of(rail),
                said_of(rail).find("come back to") != std::string::npos);
   }
-} // namespace
+} // namespace geometry_slice_faults
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(geometry_slice_faults)(tests::Check &check, const tests::Arguments &)
 {
   const RailSlices sound = read_rail_slices(TREAD_CROSSING);
   one_that_is_wrong(check, sound);

@@ -23,7 +23,7 @@
 
 using namespace tread;
 
-namespace
+namespace geometry_surfaces
 {
   std::function<double(double)> rail(const RailProfile &profile, const double slope)
   {
@@ -674,9 +674,9 @@ namespace
     says("two measurements in a .ban", complaint("rail", ".ban", "A=1\n\n-1 0\n0 0\nA=2\n"),
          {"line 5", "another measurement"});
   }
-} // namespace
+} // namespace geometry_surfaces
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(geometry_surfaces)(tests::Check &check, const tests::Arguments &)
 {
   check_treads(check);
   check_first_contact(check);

@@ -14,7 +14,7 @@
 
 using namespace tread;
 
-namespace
+namespace material_elastic
 {
   const ElasticMaterial steel;
 
@@ -115,10 +115,10 @@ namespace
     // Third order: the square of the strain. St. Venant and Kirchhoff's law differs by 1e-2.
     check.below("forces of elastic cells beside those of cells that could yield", error / largest, 5e-4);
   }
-} // namespace
+} // namespace material_elastic
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(material_elastic)(tests::Check &check, const tests::Arguments &)
 {
   test_law(check);
   test_cells(check);

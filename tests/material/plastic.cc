@@ -11,7 +11,7 @@
 
 using namespace tread;
 
-namespace
+namespace material_plastic
 {
   /// A point with its history, driven by prescribed deformation gradients without rotation.
   template <unsigned int n>
@@ -186,10 +186,10 @@ namespace
       }
     check.that(name + ": a lane is the same to the last bit whatever the others do", equal);
   }
-} // namespace
+} // namespace material_plastic
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(material_plastic)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial elastic;
   const double          E = elastic.young_modulus, Y = 500e6, H = hardening_modulus(E, 21e9), MPa = 1e-6;

@@ -23,15 +23,16 @@
 using namespace tread;
 using dealii::Point;
 using dealii::Tensor;
-using tests::Mesh;
-using tests::Measured;
-using tests::measure;
-using tests::off_surface;
-using tests::refine;
-using tests::shortest_edge;
 
-namespace
+namespace bodies_shapes
 {
+  using tests::Mesh;
+  using tests::Measured;
+  using tests::measure;
+  using tests::off_surface;
+  using tests::refine;
+  using tests::shortest_edge;
+
   constexpr double pi = dealii::numbers::PI;
 
   void check_shape(tests::Check      &check,
@@ -390,9 +391,9 @@ namespace
     check.below(std::string(name) + ": centre of gravity off the axis, mm",
                 1e3 * (m.moment / m.volume - Point<3>(wheel.center_x, 0., wheel.radius)).norm(), 0.1);
   }
-} // namespace
+} // namespace bodies_shapes
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(bodies_shapes)(tests::Check &check, const tests::Arguments &)
 {
   const auto start = std::chrono::steady_clock::now();
   const auto lap   = [&] {

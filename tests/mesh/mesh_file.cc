@@ -19,7 +19,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace mesh_file
 {
   // Two cubes of 10 mm along x, in mm. Nodes i + 3 (j + 2 k) + 1.
   const std::string places[12] = {"0 -5 -10", "10 -5 -10", "20 -5 -10", "0 5 -10", "10 5 -10", "20 5 -10",
@@ -689,9 +689,9 @@ namespace
                    1e-4);
     check.relative("thickness, mm", 1e3 * rail->thickness(0., 0.), 40., 1e-12);
   }
-} // namespace
+} // namespace mesh_file
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(mesh_file)(tests::Check &check, const tests::Arguments &)
 {
   const tests::TemporaryFolder folder;
   check_formats(check, folder);

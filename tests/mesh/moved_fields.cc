@@ -15,7 +15,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace mesh_moved_fields
 {
   constexpr double length = 0.16, size = 0.02; // of the coarse cells, m
 
@@ -69,10 +69,10 @@ namespace
   {
     return dealii::Utilities::MPI::max(value, MPI_COMM_WORLD);
   }
-} // namespace
+} // namespace mesh_moved_fields
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(mesh_moved_fields)(tests::Check &check, const tests::Arguments &)
 {
   // The first in parts and the second as a whole on each rank, where the middle costs three times as much.
   const auto cost = [](const unsigned int, const std::array<Point<3>, 8> &corners, const unsigned int) {

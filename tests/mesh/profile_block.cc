@@ -13,7 +13,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace mesh_profile_block
 {
   constexpr double radius = 20e-3, half_width = 20e-3, depth = 30e-3, finest = 1e-3; // m
 
@@ -147,9 +147,9 @@ namespace
     check.below("wheel: nodes off the profile, nm",
                 1e9 * tests::off_surface(mesh, Boundary::contact, off_arc), 1e-3);
   }
-} // namespace
+} // namespace mesh_profile_block
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(mesh_profile_block)(tests::Check &check, const tests::Arguments &)
 {
   check_rail(check, 0.);
   check_rail(check, 0.4);

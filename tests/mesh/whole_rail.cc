@@ -17,7 +17,7 @@
 
 using namespace tread;
 
-namespace
+namespace mesh_whole_rail
 {
   dealii::Tensor<1, 3> edge(const Mesh        &mesh,
                             const Mesh::Cell  &cell,
@@ -165,9 +165,9 @@ namespace
       }
     return largest;
   }
-} // namespace
+} // namespace mesh_whole_rail
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(mesh_whole_rail)(tests::Check &check, const tests::Arguments &)
 {
   check_rows(check);
   check_stretched_cell(check);

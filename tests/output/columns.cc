@@ -22,7 +22,7 @@
 
 using namespace tread;
 
-namespace
+namespace output_columns
 {
   /// Names of columns, and what a reader of the table expects there.
   using Expected = std::vector<std::pair<std::string, double>>;
@@ -438,10 +438,10 @@ namespace
                tests::complaint<std::logic_error>(keys_of_summary) ==
                  "'test_b_per_s' of summary.json is described twice");
   }
-} // namespace
+} // namespace output_columns
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(output_columns)(tests::Check &check, const tests::Arguments &)
 {
   check_summary_keys(check);
   check_history(check);

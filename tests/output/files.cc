@@ -2,6 +2,7 @@
 // Files of a run against closed forms: tables of a rail's cells and surface, pictures of bodies and contact
 // surfaces, the list of pictures of a run that is resumed, and the figures of a summary beside references.
 #include <tread/base/csv_table.h>
+#include <tread/base/file_text.h>
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
 #include <tread/simulation/recorders/history.h>
@@ -35,9 +36,8 @@ using namespace tread;
 using dealii::Point;
 using tests::Side;
 using tests::TemporaryFolder;
-using tests::text_of_file;
 
-namespace
+namespace output_files
 {
   /// The numbers of an array of a VTU file, each of this type.
   template <typename Number>
@@ -576,10 +576,10 @@ namespace
     check.that("summary: the table shows it",
                table.find("1100") != std::string::npos && table.find("+10.00%") != std::string::npos);
   }
-} // namespace
+} // namespace output_files
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(output_files)(tests::Check &check, const tests::Arguments &)
 {
   const TemporaryFolder temporary;
   {

@@ -19,7 +19,7 @@
 
 using namespace tread;
 
-namespace
+namespace output_of_all_ranks
 {
   /// None on rank 0, three messages on rank 1, a whole one on rank 2.
   std::string bytes_of(const unsigned int rank)
@@ -30,10 +30,10 @@ namespace
       bytes[i] = static_cast<char>(i ^ ((i >> 8) * (rank + 7)) ^ (i >> 16) ^ (i >> 24));
     return bytes;
   }
-} // namespace
+} // namespace output_of_all_ranks
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(output_of_all_ranks)(tests::Check &check, const tests::Arguments &)
 {
   const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
                      n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);

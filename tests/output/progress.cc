@@ -8,7 +8,7 @@
 
 using namespace tread;
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(output_progress)(tests::Check &check, const tests::Arguments &)
 {
   // A measure that falls e times in 2 s is at its limit after 2 s ln(1e5) = 23 s; with ripples upon it when
   // its peaks are.

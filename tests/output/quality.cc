@@ -12,7 +12,7 @@
 
 using namespace tread;
 
-namespace
+namespace output_quality
 {
   Quality good()
   {
@@ -27,9 +27,9 @@ namespace
     q.slip_chatter            = 0.03;
     return q;
   }
-} // namespace
+} // namespace output_quality
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(output_quality)(tests::Check &check, const tests::Arguments &)
 {
   check.relative("dissipated: the contact loss counts whatever its sign, J", good().energy.dissipated(), 4.11,
                  1e-12);

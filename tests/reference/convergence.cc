@@ -19,7 +19,7 @@
 using namespace tread::reference;
 using std::numbers::pi;
 
-namespace
+namespace reference_convergence
 {
   /// Force of Carter's problem over the exact one, minus one, where `inside` of the last element lies in the
   /// patch of n elements.
@@ -213,9 +213,9 @@ namespace
                    e.max_shear.value + e.adhesion_share.value + std::abs(e.frictional_power.value) * 1e-3, 0.,
                    1e-6);
   }
-} // namespace
+} // namespace reference_convergence
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_convergence)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   carter_order(check);
   cases(check);

@@ -17,7 +17,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_gap
 {
   using Field = std::vector<double>;
 
@@ -612,9 +612,9 @@ namespace
     check.relative("the creepage gives the traction back", estimate_rolling(c).traction_coefficient.value,
                    0.3, 1e-5);
   }
-} // namespace
+} // namespace reference_gap
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_gap)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   rail_head(check);
   two_patches(check);

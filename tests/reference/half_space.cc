@@ -19,7 +19,7 @@
 using namespace tread::reference;
 using tread::tests::thesis_case;
 
-namespace
+namespace reference_half_space
 {
   using Vector3 = std::map<std::string, std::string>;
 
@@ -343,9 +343,9 @@ namespace
     check.relative("one square: a plane below carries the shear", force_x, 0.7 * (1. - 1.5 * 1.5 / 60.),
                    1e-3);
   }
-} // namespace
+} // namespace reference_half_space
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_half_space)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   totals(check);
   fields(check);

@@ -15,7 +15,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_hertz
 {
   struct Maximum
   {
@@ -192,9 +192,9 @@ namespace
       combine(Elastic{}, Elastic{210e9, 0.6});
     });
   }
-} // namespace
+} // namespace reference_hertz
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_hertz)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   const ElasticPair steel   = combine(Elastic{}, Elastic{});
   const double      modulus = steel.hertz_modulus();

@@ -15,7 +15,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_kalker
 {
   /// The patch of a 460 mm wheel on a 300 mm rail head at 127.1 kN, f = 0.5.
   CreepPatch wheel_on_rail()
@@ -206,9 +206,9 @@ namespace
     });
     check.refuses("traction ratio", "traction_ratio", [] { carter_creepage(0.5, 1e11, 1e5, 0.3, 1.2); });
   }
-} // namespace
+} // namespace reference_kalker
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_kalker)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   const CreepPatch patch = wheel_on_rail();
   kalkers_coefficients(check, patch);

@@ -18,7 +18,7 @@
 using namespace tread::reference;
 using std::numbers::pi;
 
-namespace
+namespace reference_rolling
 {
   using Field = std::vector<double>;
 
@@ -405,9 +405,9 @@ namespace
     check.relative("creepage after 8 a at constant force, over the steady one",
                    now.longitudinal / steady.longitudinal, 1., 1e-3);
   }
-} // namespace
+} // namespace reference_rolling
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_rolling)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   carter_limit(check);
   cattaneo(check);

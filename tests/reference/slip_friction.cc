@@ -16,7 +16,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_slip_friction
 {
   RollingCase locomotive(const double creepage, const double friction)
   {
@@ -47,9 +47,9 @@ namespace
   {
     double creepage, traction;
   };
-} // namespace
+} // namespace reference_slip_friction
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_slip_friction)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   // A law that falls within some micrometres per second has no steady state without a memory, which is known
   // before anything is solved; with a memory it has. One that falls 50 times more slowly is given up early.

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace
+namespace reference_threads
 {
   constexpr unsigned int threads = 4;
 
@@ -47,9 +47,9 @@ namespace
       n += std::memcmp(&a[k], &b[k], sizeof a[k]) != 0;
     return n;
   }
-} // namespace
+} // namespace reference_threads
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_threads)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   const std::vector<tread_half_space_case> problems = cases();
   const auto solve_all = [&](const unsigned int n_threads, std::vector<tread_half_space_answer> &answers) {

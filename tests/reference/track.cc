@@ -12,7 +12,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_track
 {
   constexpr double spacing = 0.6, wheel_load = 116.8e3;
 
@@ -185,10 +185,10 @@ namespace
     check.relative("reciprocity (nm/N)", 1e9 * std::abs(beam.respond({{1.13, 1.}}, omega).deflection(.3)),
                    1e9 * std::abs(response.deflection(1.13)), 1e-9);
   }
-} // namespace
+} // namespace reference_track
 
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_track)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   const Rail rail54{"54E1", 2337.9e-8, 69.77e-4}, rail60{"60E1", 3038.3e-8, 76.70e-4};
   static_loads(check, rail54, rail60);

@@ -13,7 +13,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_transient
 {
   /// Sphere with a contact radius of 3.5 mm (Kalker 1990, section 5.2.2.5), G = 1 N/mm2, nu = 0.28.
   RollingCase sphere(const double element_size)
@@ -188,9 +188,9 @@ namespace
                        steady / t.rolling.normal_force, coned ? 0.01 : 0.015);
       }
   }
-} // namespace
+} // namespace reference_transient
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_transient)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   cattaneo_to_carter(check);
   start_at_small_creepage(check);

@@ -15,7 +15,7 @@
 
 using namespace tread::reference;
 
-namespace
+namespace reference_uneven_way
 {
   constexpr double curvature_x = 1.087, curvature_y = 1.667, load = 127.1e3, edge = 0.5e-3, edge_y = 0.6e-3;
 
@@ -156,9 +156,9 @@ namespace
                                                    roll_over(way);
                                                  }).empty());
   }
-} // namespace
+} // namespace reference_uneven_way
 
-void run_test(tread::tests::Check &check, const tread::tests::Arguments &)
+TREAD_TEST(reference_uneven_way)(tread::tests::Check &check, const tread::tests::Arguments &)
 {
   level(check);
   from_rest(check);

@@ -35,7 +35,7 @@ using namespace tread;
 using tests::TemporaryFolder;
 using dealii::Point;
 
-namespace
+namespace scene_parts
 {
   using Settings = std::vector<std::string>;
 
@@ -1343,10 +1343,10 @@ namespace
                        round_off);
       }
   }
-} // namespace
+} // namespace scene_parts
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(scene_parts)(tests::Check &check, const tests::Arguments &)
 {
   const TemporaryFolder folder;
   check_numerics(check);

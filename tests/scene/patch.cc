@@ -13,7 +13,7 @@
 
 using namespace tread;
 
-namespace
+namespace scene_patch
 {
   std::vector<std::string> s1002(const std::string &profile, const std::string &position)
   {
@@ -28,9 +28,9 @@ namespace
   {
     return tests::complaint<InputError>([&] { Scene().read("", settings); });
   }
-} // namespace
+} // namespace scene_patch
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(scene_patch)(tests::Check &check, const tests::Arguments &)
 {
   Scene crown;
   crown.read("", {"Rail/Shape=block", "Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"});

@@ -22,7 +22,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace checkpoint_members
 {
   constexpr double       axle_height = 0.46, speed = 28.; // m, m/s
   constexpr unsigned int steps_before = 120, steps_after = 100;
@@ -318,10 +318,10 @@ namespace
     all("stress under the path",
         same_bits(numbers(a.strip.columns(a.dynamics)), numbers(b.strip.columns(b.dynamics))));
   }
-} // namespace
+} // namespace checkpoint_members
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(checkpoint_members)(tests::Check &check, const tests::Arguments &)
 {
   const MPI_Comm comm = MPI_COMM_WORLD;
   InZeros        original(comm), restored(comm), again(comm);

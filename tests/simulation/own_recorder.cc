@@ -18,7 +18,7 @@
 
 using namespace tread;
 
-namespace
+namespace simulation_own_recorder
 {
   // The recorder.
 
@@ -93,10 +93,10 @@ namespace
     H5free_memory(text);
     return found;
   }
-} // namespace
+} // namespace simulation_own_recorder
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(simulation_own_recorder)(tests::Check &check, const tests::Arguments &)
 {
   Scene scene;
   scene.read("", {"Rail/Shape=block", "Mesh/Finest cell (mm)=2.5", "Mesh/Fine half width (mm)=10",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run keeps of its way: extremes of the forces, ripples of the force at its end, the mean of the
 // patch, and what the cost of a run is estimated from.
+#include <tread/base/file_text.h>
 #include <tread/simulation/recorders/end_of_way.h>
 #include <tread/simulation/recorders/impact_record.h>
 #include <tread/simulation/recorders/solution.h>
@@ -22,7 +23,7 @@
 
 using namespace tread;
 
-namespace
+namespace simulation_records
 {
   /// A row of the history with two supports. @param x place of the wheel, m; @param force on it, N
   HistoryRow row_of(const double               x,
@@ -255,7 +256,7 @@ namespace
     dup2(screen, STDOUT_FILENO);
     close(screen);
     std::fclose(file);
-    return tests::text_of_file(name);
+    return text_of_file(name);
   }
 
   /// With the scale s of the density a run needs 1/sqrt(s) of the steps. What the start takes is the same: it
@@ -278,10 +279,10 @@ namespace
     check.relative("estimate: saved by a density scale of 4 over that of 25 instead of 4",
                    (like_true - four) / (four - much), (1. - 1. / 2.) / (1. / 2. - 1. / 5.), tenths);
   }
-} // namespace
+} // namespace simulation_records
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(simulation_records)(tests::Check &check, const tests::Arguments &)
 {
   check_impacts(check);
   check_ripple(check);

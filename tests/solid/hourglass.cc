@@ -22,7 +22,7 @@ using namespace tread;
 using dealii::Point;
 using tests::reference_positions;
 
-namespace
+namespace solid_hourglass
 {
   /// Eigenvalues (ascending) of the stiffness matrix of a mesh of few nodes, from differences of forces.
   std::vector<double> stiffness_eigenvalues(const Mesh &mesh, const Solid &solid, const double step)
@@ -187,10 +187,10 @@ namespace
                           load * length / (5. / 6. * material.shear_modulus() * area);
     return work / load / theory;
   }
-} // namespace
+} // namespace solid_hourglass
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(solid_hourglass)(tests::Check &check, const tests::Arguments &)
 {
   Body cell = tests::make_box("cell", Point<3>(), Point<3>(.01, .01, .01), {{1, 1, 1}});
   check_modes(check, cell, "cube");

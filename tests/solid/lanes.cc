@@ -17,7 +17,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace solid_lanes
 {
   /// n cells of random shape that share no nodes.
   Body make_loose_cells(const unsigned int n)
@@ -100,15 +100,15 @@ namespace
         }
     return deviation / largest;
   }
-} // namespace
+} // namespace solid_lanes
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(solid_lanes)(tests::Check &check, const tests::Arguments &)
 {
   std::printf("%u lanes\n", n_lanes);
 
   const std::vector<ElasticMaterial> steel(1);
-  const Tested                      elements[3] = {{"one point", OnePoint::name, 0.},
+  const Tested                       elements[3] = {{"one point", OnePoint::name, 0.},
                                                     {"one point, bulk viscosity", OnePoint::name, 1.},
                                                     {"fully integrated", FullyIntegrated::name, 0.}};
   for (const Tested &element : elements)

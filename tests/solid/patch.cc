@@ -17,7 +17,7 @@ using namespace tread;
 using dealii::Point;
 using dealii::Tensor;
 
-namespace
+namespace solid_patch
 {
   constexpr double edge = 0.1; // m
 
@@ -197,10 +197,10 @@ namespace
     check.below("bent bricks: stress of fully integrated cells beside one point",
                 tests::difference(found, mean), 1e-10);
   }
-} // namespace
+} // namespace solid_patch
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(solid_patch)(tests::Check &check, const tests::Arguments &)
 {
   // Small strains with a rigid turn in them, and a deformation that no linear theory would get right.
   Tensor<2, 3> small = identity(), large = identity();

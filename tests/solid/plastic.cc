@@ -16,7 +16,7 @@ using dealii::Point;
 using tests::largest;
 using tests::turned;
 
-namespace
+namespace solid_plastic
 {
   constexpr double edge = 0.1; // m
 
@@ -432,10 +432,10 @@ namespace
                largest_change(plastic.where_flowing(there, twice, log_there), twice) == 0. &&
                  largest_change(plastic.where_flowing(virgin, twice, log_there), log_there) == 0.);
   }
-} // namespace
+} // namespace solid_plastic
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(solid_plastic)(tests::Check &check, const tests::Arguments &)
 {
   const Cube cube;
   for (const bool kinematic : {false, true})

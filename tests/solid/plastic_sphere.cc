@@ -16,7 +16,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace plastic_sphere
 {
   constexpr double inner = 0.05, outer = 0.10; // m
   constexpr double yield = 500e6;              // Pa
@@ -137,10 +137,10 @@ namespace
       return sum / n;
     }
   };
-} // namespace
+} // namespace plastic_sphere
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(plastic_sphere)(tests::Check &check, const tests::Arguments &)
 {
   const ElasticMaterial steel;
   const double          E = steel.young_modulus, nu = steel.poisson_ratio, a3 = std::pow(inner, 3),

@@ -19,7 +19,7 @@ using dealii::Point;
 using tests::largest;
 using tests::turned;
 
-namespace
+namespace solid_rotation
 {
   NodalField forces(const Mesh &mesh, const Solid &solid, const NodalField &x)
   {
@@ -28,10 +28,10 @@ namespace
     mesh.condense_hanging_nodes(f.data());
     return f;
   }
-} // namespace
+} // namespace solid_rotation
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(solid_rotation)(tests::Check &check, const tests::Arguments &)
 {
   constexpr double      edge = 0.1; // m
   const ElasticMaterial material;

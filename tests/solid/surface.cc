@@ -22,7 +22,7 @@ using namespace tread;
 using dealii::Point;
 using tests::reference_positions;
 
-namespace
+namespace solid_surface
 {
   constexpr double pi = 3.14159265358979323846;
 
@@ -466,10 +466,10 @@ namespace
       worst[0], 1e-12);
     check.below("damping forces on large amplitudes that turn, over those of such rates", worst[1], 1e-12);
   }
-} // namespace
+} // namespace solid_surface
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(solid_surface)(tests::Check &check, const tests::Arguments &)
 {
   check_offsets(check);
   for (const unsigned int normal : {0u, 1u, 2u})

@@ -17,7 +17,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_beyond
 {
   TrackParameters points()
   {
@@ -306,10 +306,10 @@ namespace
     history.ledger = rail->dynamics->ledger();
     return history;
   }
-} // namespace
+} // namespace track_beyond
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_beyond)(tests::Check &check, const tests::Arguments &)
 {
   const History together = run(MPI_COMM_WORLD);
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)

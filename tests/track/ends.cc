@@ -15,7 +15,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_ends
 {
   void absorb(tests::TrackRail &rail, const double length)
   {
@@ -107,10 +107,10 @@ namespace
     history.ledger = rail.dynamics->ledger();
     return history;
   }
-} // namespace
+} // namespace track_ends
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_ends)(tests::Check &check, const tests::Arguments &)
 {
   const History together = run(MPI_COMM_WORLD);
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)

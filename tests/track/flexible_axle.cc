@@ -12,7 +12,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_flexible_axle
 {
   constexpr double torsion = 3e6, bending = 6.6e6, half_length = 0.75; // N m/rad, N m^2, m
   constexpr double polar = 60., yaw_inertia = 700., step = 2e-6; // of a wheel and of the wheelset, kg m^2; s
@@ -193,10 +193,10 @@ namespace
                        1e-12);
       }
   }
-} // namespace
+} // namespace track_flexible_axle
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_flexible_axle)(tests::Check &check, const tests::Arguments &)
 {
   frequencies(check);
   statics(check);

@@ -13,7 +13,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_moving_load
 {
   constexpr double pi    = dealii::numbers::PI;
   constexpr double width = .06, height = .15, force = 1e5; // m, m, N
@@ -265,10 +265,10 @@ namespace
                    1e6 * expected(track.exceptions[1]), 0.01);
     check.that("they are faster than the cells", 1.5 * expected(springs) < of_cells);
   }
-} // namespace
+} // namespace track_moving_load
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_moving_load)(tests::Check &check, const tests::Arguments &)
 {
   simply_supported(check);
   on_foundation(check);

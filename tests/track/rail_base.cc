@@ -16,7 +16,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace track_rail_base
 {
   /// Of a mass on a spring and a damper, after a force has begun to act: m.
   double swing(const double mass, const SpringAndDamper &on, const double force, const double time)
@@ -26,10 +26,10 @@ namespace
            (1. - std::exp(-decay * time) *
                    (std::cos(frequency * time) + decay / frequency * std::sin(frequency * time)));
   }
-} // namespace
+} // namespace track_rail_base
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_rail_base)(tests::Check &check, const tests::Arguments &)
 {
   constexpr double cell = 0.02, height = 3 * cell, length = 4 * cell, width = 2 * cell;
   const Mesh       mesh(MPI_COMM_WORLD, {tests::make_box("rail", Point<3>(), Point<3>(length, width, height),

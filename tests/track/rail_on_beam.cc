@@ -21,7 +21,7 @@
 using namespace tread;
 using dealii::Point;
 
-namespace
+namespace track_rail_on_beam
 {
   constexpr double spacing = 0.6, before = 0.22; // m; from the support before to x = 0
 
@@ -419,10 +419,10 @@ namespace
                 block.dynamics.ledger().residual() / (force * max(fastest, MPI_COMM_WORLD) * state.time_step),
                 1.);
   }
-} // namespace
+} // namespace track_rail_on_beam
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_rail_on_beam)(tests::Check &check, const tests::Arguments &)
 {
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
     {

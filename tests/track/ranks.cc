@@ -11,7 +11,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_ranks
 {
   struct History
   {
@@ -64,10 +64,10 @@ namespace
       }
     return history;
   }
-} // namespace
+} // namespace track_ranks
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_ranks)(tests::Check &check, const tests::Arguments &)
 {
   TrackParameters track;
   track.pad_width = .05;

@@ -11,7 +11,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_receptance
 {
   struct Extreme
   {
@@ -118,10 +118,10 @@ namespace
                      cells.extreme(950., 1150., 1.), pinned, .02);
     }
   }
-} // namespace
+} // namespace track_receptance
 
 
-void run_test(tests::Check &check, const tests::Arguments &arguments)
+TREAD_TEST(track_receptance)(tests::Check &check, const tests::Arguments &arguments)
 {
   const std::string what = arguments.empty() ? "" : arguments.front();
   // Timoshenko's frequencies for a half wave of one spacing, shear coefficient 0.4.

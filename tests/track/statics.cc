@@ -12,7 +12,7 @@
 
 using namespace tread;
 
-namespace
+namespace track_statics
 {
   constexpr double load = 116.8e3; // N
 
@@ -384,10 +384,10 @@ namespace
     check.that("dampers of pads that pull do so", least_while_rising(*pulled) < -0.1 * load);
     check.that("dampers of pads that do not pull", least_while_rising(*let_go) >= 0.);
   }
-} // namespace
+} // namespace track_statics
 
 
-void run_test(tests::Check &check, const tests::Arguments &)
+TREAD_TEST(track_statics)(tests::Check &check, const tests::Arguments &)
 {
   TrackParameters track;
   track.pad_width     = .05;
