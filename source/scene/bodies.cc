@@ -204,9 +204,13 @@ namespace tread
 
   std::vector<Body> make_bodies(const Scene &scene, const FineWindow &window)
   {
-    if (scene.is_positioned())
-      return {scene.placed_wheel().make_rail(scene), scene.placed_wheel().make_wheel(scene)};
-    const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+    return scene.stance().make_bodies(window);
+  }
+
+
+  std::vector<Body> UprightWheel::make_bodies(const FineWindow &window) const
+  {
+    const reference::HertzEllipse ellipse = this->ellipse(scene.static_load());
     std::vector<Body>             bodies;
     bodies.push_back(make_rail(scene, zones_on_rail(scene, ellipse, window)));
     bodies.back().name = "rail";

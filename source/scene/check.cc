@@ -243,7 +243,6 @@ namespace tread
       require(scene.wheel.is_full() || scene.wheel.sector_margin >= 3. * a,
               "'Wheel/Sector margin (mm)' " + text_in_mm(scene.wheel.sector_margin) +
                 " lets the contact leave the sector; at least three semi-axes, " + text_in_mm(3. * a));
-      check_sector(scene);
       check_window(scene);
 
       // Around the finest cells there is room for at least one more, if the rail does not go on as its image.
@@ -353,17 +352,13 @@ namespace tread
                 text_in_mm(scene.peak_stress.to));
     // A wheelset in a position touches ahead of its axle or behind it, on slices on one piece after the
     // other.
-    const double half_cell = 0.5 * scene.mesh.finest_cell;
-    const auto   on_path   = scene.is_positioned()
-                               ? scene.placed_wheel().paths()
-                               : std::vector<PlacedWheel::Path>{
-                                   {nullptr, "", scene.path_begin(), scene.path_end() + half_cell, 0., 0.}};
-    std::string  where;
-    for (const PlacedWheel::Path &path : on_path)
+    const auto  on_path = scene.stance().paths();
+    std::string where;
+    for (const WheelStance::Path &path : on_path)
       where += (where.empty() ? "" : ", or ") + (path.name.empty() ? "" : path.name + " ") + "from " +
                text_in_mm(path.begin) + " to " + text_in_mm(path.end) + " mm";
     require(std::any_of(on_path.begin(), on_path.end(),
-                        [&](const PlacedWheel::Path &path) {
+                        [&](const WheelStance::Path &path) {
                           return region.begin >= path.begin && region.end <= path.end;
                         }),
             "the region of 'Peak stress', from " + text_in_mm(region.begin) + " to " +
@@ -396,18 +391,10 @@ namespace tread
   }
 
 
-  void check_sector(const Scene &scene)
-  {
-    require(!scene.is_positioned() || !wheel_is_ring(scene),
-            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
-            "wheel's circumference, " +
-              text_in_mm(longest_sector(scene)) + ", where 'Wheelset' has a position");
-  }
-
-
   void check_plasticity(const Scene &scene)
   {
-    const double beside = scene.is_positioned() ? 0. : std::abs(path_y(scene));
+    const bool   alike  = scene.is_positioned(); // both bodies are blocks of one size
+    const double beside = alike ? 0. : std::abs(path_y(scene));
     for (const bool of_wheel : {true, false})
       {
         const std::string      section  = of_wheel ? "Wheel" : "Rail";
@@ -415,15 +402,14 @@ namespace tread
         require((material.plastic_zones.empty() && material.yield_stress == 0.) ||
                   (element_named(scene.solid.element).can_yield && !scene.solid.has_bulk_viscosity()),
                 "'" + section + "/Yield stress (MPa)' needs 'Solid/Element' one-point and no bulk viscosity");
-        // Where the wheel has a position both bodies are blocks of one size.
         material.check(
           section,
-          of_wheel ? MaterialSection::Meshed{scene.wheel.thickness(), scene.wheel.half_width() - beside,
-                                             meshed_arc(scene).begin, meshed_arc(scene).end}
-                   : MaterialSection::Meshed{
-                       (scene.is_positioned() ? scene.wheel.thickness() : scene.rail_thickness()),
-                       (scene.is_positioned() ? scene.wheel.half_width() : scene.rail_half_width()) - beside,
-                       scene.rail_begin(), scene.rail_end()});
+          of_wheel
+            ? MaterialSection::Meshed{scene.wheel.thickness(), scene.wheel.half_width() - beside,
+                                      meshed_arc(scene).begin, meshed_arc(scene).end}
+            : MaterialSection::Meshed{alike ? scene.wheel.thickness() : scene.rail_thickness(),
+                                      (alike ? scene.wheel.half_width() : scene.rail_half_width()) - beside,
+                                      scene.rail_begin(), scene.rail_end()});
       }
   }
 

@@ -86,8 +86,7 @@ namespace tread
     /// rest, and the way into the defect is missing. Corrugation may reach over all of the path.
     std::string begins_on_defect(const Scene &scene)
     {
-      if (!scene.has_defect() || scene.is_positioned() || scene.defect.shape == "corrugation" ||
-          scene.static_load() <= 0.)
+      if (!scene.has_defect() || scene.defect.shape == "corrugation" || scene.static_load() <= 0.)
         return "";
       constexpr unsigned int n     = 5; // places over the patch, along and across
       const Defect          &made  = *scene.made_defect();
@@ -198,18 +197,8 @@ namespace tread
               size < least_cells * scene.mesh.finest_cell)
             narrow.push_back({patch, island, size});
       };
-      if (scene.is_positioned())
-        {
-          for (const WheelPatch &patch : scene.placed_wheel().patches())
-            look(islands_of(patch.solution.grid, patch.solution.pressure),
-                 "patch " + std::to_string(&patch - scene.placed_wheel().patches().data() + 1));
-          for (const TouchedPiece &piece : scene.placed_wheel().way().pieces)
-            for (const TouchedPiece::Touch &touch : piece.touches)
-              look(islands_of(touch.patch.solution.grid, touch.patch.solution.pressure),
-                   format("the patch at %.1f mm along the slices", 1e3 * scene.position_at(touch.x()).along));
-        }
-      else if (!scene.is_between_planes()) // whose patch goes on as its own image
-        look(scene.islands(), "the patch");
+      for (const auto &[patch, parts] : scene.stance().parts_of_patches())
+        look(parts, patch);
       if (narrow.empty())
         return "";
       const Narrow &worst = *std::min_element(
@@ -481,8 +470,7 @@ namespace tread
   bool misses_defect(const Scene &scene)
   {
     const Defect &made = *scene.made_defect();
-    // A wheelset may move across its rails.
-    if (scene.is_positioned() || scene.static_load() <= 0.)
+    if (scene.static_load() <= 0.)
       return false;
     const Scene::Range beyond = reach_of(scene, -extremes_of(made.shape).first * made.depth);
     // As wide as the zone of fine cells would be, for what inertia adds to the load.

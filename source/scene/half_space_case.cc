@@ -198,8 +198,12 @@ namespace tread
 
   reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
   {
-    if (scene.is_positioned())
-      return scene.placed_wheel().ellipse(normal_force);
+    return scene.stance().ellipse(normal_force);
+  }
+
+
+  reference::HertzEllipse UprightWheel::ellipse(const double normal_force) const
+  {
     if (scene.is_between_planes())
       return line_between_planes(scene, normal_force);
     return hertz(half_space_case(scene, normal_force, 0.));
@@ -209,7 +213,7 @@ namespace tread
   reference::HertzEllipse hertz_over_patch(const Scene &scene, const double normal_force)
   {
     reference::HertzEllipse ellipse = hertz(scene, normal_force);
-    if (scene.is_positioned() || scene.is_between_planes() || !scene.has_fitted_lateral_radius())
+    if (scene.is_between_planes() || !scene.has_fitted_lateral_radius())
       return ellipse;
     reference::RollingCase c = half_space_case(scene, normal_force, 0.);
     for (unsigned int pass = 0; pass < 30; ++pass)

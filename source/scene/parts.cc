@@ -68,7 +68,7 @@ namespace tread
   std::vector<PlasticZone> plastic_zones(const Scene &scene)
   {
     std::vector<PlasticZone> zones;
-    const double             rolled = scene.motion.meshed_distance(), radius = scene.wheel.radius;
+    const double             rolled = scene.motion.meshed_distance();
     // Cells yield this far, in semi-axes, ahead of and behind the path, and as far again as they do below it.
     constexpr double beyond_path = 1.4;
     const double     patch       = beyond_path * hertz(scene, scene.static_load()).semi_axis_x;
@@ -79,25 +79,12 @@ namespace tread
         const double           half_width = material.plastic_half_width;
         // Distance along the path and below the surface; of a wheel along its tread, from the lowest point in
         // the reference position.
-        const double axle   = scene.path_begin(wheel ? body - wheel_body(0) : 0);
-        const auto   yields = [=, &scene](const dealii::Point<3> &p, const double begin, const double end,
+        const auto yields = [=, &scene](const dealii::Point<3> &p, const double begin, const double end,
                                         const double depth) {
-          const auto is_in = [&](const double along, const double beside, const double below) {
-            return along >= begin && along <= end && below <= depth && std::abs(beside) <= half_width;
-          };
-          if (!scene.is_positioned())
-            {
-              const double dx = p[0] - axle, dz = p[2] - scene.axle_height();
-              return is_in(wheel ? radius * std::atan2(dx, -dz) : p[0], p[1] - path_y(scene),
-                           wheel               ? radius - std::hypot(dx, dz)
-                             : scene.rail_mesh() ? depth_in_rail(scene, p)
-                                                 : -scene.in_rail_axes(p)[2]);
-            }
-          const PlacedWheel &placed = scene.placed_wheel();
-          return std::any_of(placed.patches().begin(), placed.patches().end(), [&](const WheelPatch &patch) {
-            const PlacedWheel::Place place =
-              wheel ? placed.place_in_wheel(p, patch, axle) : placed.place_in_rail(p, patch);
-            return is_in(place.along, place.beside, place.below);
+          const std::vector<WheelStance::Place> places = scene.stance().places_under(p, body);
+          return std::any_of(places.begin(), places.end(), [&](const WheelStance::Place &place) {
+            return place.along >= begin && place.along <= end && place.below <= depth &&
+                   std::abs(place.beside) <= half_width;
           });
         };
         const auto add = [&](const double begin, const double end, const double depth, const double yield,
@@ -156,26 +143,12 @@ namespace tread
     const Scene::Range stretch = windows(scene).at(window);
     return {stretch.begin - patch,
             (has_window(scene) ? stretch.end : scene.meshed_end()) + patch,
-            scene.is_positioned() ? scene.placed_wheel().origin(scene.placed_wheel().main_patch())[1]
-                                  : scene.first_contact().y,
+            scene.stance().patch_y(),
             scene.output.strip_half_width,
             patch,
             [&scene](const dealii::Point<3> &p) {
               return depth_in_rail(scene, p);
             }};
-  }
-
-
-  std::function<double(const dealii::Point<3> &)> depth_in(const Scene &scene, const unsigned int body)
-  {
-    if (body == rail_body)
-      return [&scene](const dealii::Point<3> &p) {
-        return depth_in_rail(scene, p);
-      };
-    return [&scene, begin = scene.path_begin(), height = scene.axle_height()](const dealii::Point<3> &p) {
-      const double ahead = p[0] - begin, down = height - p[2];
-      return scene.surfaces().wheel_radius(std::atan2(ahead, down), p[1]) - std::hypot(ahead, down);
-    };
   }
 
 
@@ -221,47 +194,25 @@ namespace tread
     const Scene::Range            range     = peak_range(scene);
     const PeakStressSection      &section   = scene.peak_stress;
     PeakRegion                    region;
-    region.x_begin     = range.begin;
-    region.x_end       = range.end;
-    region.half_width  = peak_half_width(scene);
-    region.depth       = section.depth;
-    region.finest_cell = scene.mesh.finest_cell;
-    region.reach       = semi_axes * ellipse.semi_axis_x;
-    region.depth_of    = depth_in(scene, body);
-    region.along       = [](const dealii::Point<3> &p) {
-      return p[0];
+    region.x_begin                 = range.begin;
+    region.x_end                   = range.end;
+    region.half_width              = peak_half_width(scene);
+    region.depth                   = section.depth;
+    region.finest_cell             = scene.mesh.finest_cell;
+    region.reach                   = semi_axes * ellipse.semi_axis_x;
+    const WheelStance::Strip strip = scene.stance().strip(body, range.begin, range.end);
+    region.reach += strip.path.ahead;
+    if (section.half_width == 0. && strip.path.half_width > 0.)
+      region.half_width = strip.path.half_width;
+    region.along = [place = strip.place](const dealii::Point<3> &p) {
+      return place(p).along;
     };
-    region.beside = [y = scene.first_contact().y](const dealii::Point<3> &p) {
-      return p[1] - y;
+    region.beside = [place = strip.place](const dealii::Point<3> &p) {
+      return place(p).beside;
     };
-    const double begin = scene.path_begin();
-    if (scene.is_positioned())
-      {
-        const PlacedWheel      &wheel = scene.placed_wheel();
-        const PlacedWheel::Path path  = wheel.paths_over(range.begin, range.end).front();
-        region.reach += path.ahead;
-        if (section.half_width == 0.)
-          region.half_width = path.half_width;
-        region.beside = [&wheel, path](const dealii::Point<3> &p) {
-          return wheel.beside(path, p);
-        };
-        if (body == rail_body)
-          return region;
-        region.along = [&wheel, path, begin](const dealii::Point<3> &p) {
-          return wheel.place_in_wheel(p, path, begin).along;
-        };
-        region.beside = [&wheel, path, begin](const dealii::Point<3> &p) {
-          return wheel.place_in_wheel(p, path, begin).beside;
-        };
-        region.depth_of = [&wheel, path, begin](const dealii::Point<3> &p) {
-          return wheel.place_in_wheel(p, path, begin).below;
-        };
-      }
-    else if (body != rail_body)
-      region.along = [begin, height = scene.axle_height(),
-                      radius = scene.rolling_radius()](const dealii::Point<3> &p) {
-        return begin + radius * std::atan2(p[0] - begin, height - p[2]);
-      };
+    region.depth_of = [place = strip.place](const dealii::Point<3> &p) {
+      return place(p).below;
+    };
     return region;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/format.h>
+#include <tread/scene/parts.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/wheelset_case.h>
 
@@ -86,6 +87,7 @@ namespace tread
 
   PlacedWheel::PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling)
     : surfaces(scene.wheel_on_rail())
+    , scene(scene)
     , sides(solve(scene, surfaces, position, rolling))
     , load(scene.static_load())
     , way_begin(scene.path_begin())
@@ -94,6 +96,69 @@ namespace tread
     , slices_place(scene.rail.slices_place)
     , contact(together(sides))
   {
+  }
+
+
+  double PlacedWheel::rolling_radius() const
+  {
+    // Both wheels have different ones.
+    return scene.wheelset.both_wheels ? scene.wheel.radius : main_patch().rolling_radius;
+  }
+
+
+  unsigned int PlacedWheel::n_loads() const
+  {
+    return scene.wheelset.n_wheels();
+  }
+
+
+  void PlacedWheel::place(WheelHub &hub, const unsigned int) const
+  {
+    hub.place(Vector3{scene.path_begin(), 0., 0., 0.} + middle(), contact.position.yaw,
+              contact.position.roll);
+    if (scene.guidance.kind == Guidance::file)
+      hub.follow([this](const double time) { return scene.across(time); });
+    else if (scene.guidance.kind == Guidance::springs)
+      hub.release(scene.guidance.springs);
+    if (scene.rail.is_sliced())
+      hub.ride([this](const double x) { return slices.curvature(x); });
+    hub.motion.angular_velocity = given_angular_velocity(scene);
+  }
+
+
+  double PlacedWheel::factor_across(const Vector3 &place) const
+  {
+    const auto  &rail = surfaces.rail();
+    const double y    = std::clamp(place[1] + surfaces.rail_origin_y(), rail.begin(), rail.end());
+    return scene.contact.factor_across(y - surfaces.rail_origin_y(), std::atan(rail.slope(y)));
+  }
+
+
+  std::vector<std::pair<double, double>> PlacedWheel::loaded_lines() const
+  {
+    std::vector<std::pair<double, double>> lines;
+    for (const WheelPatch &patch : patches())
+      for (const PatchNode &node : elements_in_contact(patch))
+        lines.emplace_back(patch.region.reference[1] + std::cos(patch.angle()) * node.position[1] -
+                             surfaces.rail_origin_y(),
+                           node.pressure);
+    return lines;
+  }
+
+
+  std::vector<std::pair<std::string, std::vector<Island>>> PlacedWheel::parts_of_patches() const
+  {
+    std::vector<std::pair<std::string, std::vector<Island>>> parts;
+    const auto add = [&](const WheelPatch &patch, const std::string &words) {
+      parts.emplace_back(words, islands_of(patch.solution.grid, patch.solution.pressure));
+    };
+    for (const WheelPatch &patch : patches())
+      add(patch, "patch " + std::to_string(parts.size() + 1));
+    for (const TouchedPiece &piece : slices.pieces)
+      for (const TouchedPiece::Touch &touch : piece.touches)
+        add(touch.patch,
+            format("the patch at %.1f mm along the slices", 1e3 * scene.position_at(touch.x()).along));
+    return parts;
   }
 
 
@@ -169,8 +234,9 @@ namespace tread
   }
 
 
-  ContactNodeState PlacedWheel::in_contact_axes(ContactNodeState state, const double wheel_x) const
+  ContactNodeState PlacedWheel::in_contact_axes(const ContactNodeState &given, const double wheel_x) const
   {
+    ContactNodeState  state = given;
     const WheelPatch &patch = patches()[nearest_patch(state.position - Vector3{wheel_x, 0., 0., 0.})];
     const Vector3     s = along(patch), n = normal(patch);
     for (Vector3 *v : {&state.normal, &state.impulse, &state.slip})
@@ -389,6 +455,30 @@ namespace tread
     return {angle * patch.rolling_radius, beside,
             dot(from, normal(patch)) -
               over_plane(surfaces.wheel(), patch.wheel_s, origin, in_section / in_section.norm(), beside)};
+  }
+
+
+  std::vector<WheelStance::Place> PlacedWheel::places_under(const dealii::Point<3> &p,
+                                                            const unsigned int      body) const
+  {
+    std::vector<Place> places;
+    for (const WheelPatch &patch : patches())
+      places.push_back(body == rail_body ? place_in_rail(p, patch)
+                                         : place_in_wheel(p, patch, scene.path_begin()));
+    return places;
+  }
+
+
+  WheelStance::Strip PlacedWheel::strip(const unsigned int body, const double begin, const double end) const
+  {
+    const Path path = paths_over(begin, end).front();
+    if (body == rail_body)
+      return {path, [this, path](const dealii::Point<3> &p) -> Place {
+                return {p[0], beside(path, p), depth_in_rail(p)};
+              }};
+    return {path, [this, path, start = scene.path_begin()](const dealii::Point<3> &p) {
+              return place_in_wheel(p, path, start);
+            }};
   }
 
 

@@ -234,21 +234,16 @@ namespace tread
   }
 
 
-  Body PlacedWheel::make_rail(const Scene &scene) const
+  std::vector<Body> PlacedWheel::make_bodies(const FineWindow &) const
   {
-    if (scene.rail.is_sliced())
-      return of_sides("rail", [&](const Side &) { return rail_of_slices(scene); });
-    return of_sides("rail", [&](const Side &side) { return rail_of(scene, side); });
+    return {
+      of_sides("rail",
+               [&](const Side &side) { return scene.rail.is_sliced() ? rail_of_slices() : rail_of(side); }),
+      of_sides("wheel", [&](const Side &side) { return wheel_of(side); })};
   }
 
 
-  Body PlacedWheel::make_wheel(const Scene &scene) const
-  {
-    return of_sides("wheel", [&](const Side &side) { return wheel_of(scene, side); });
-  }
-
-
-  Body PlacedWheel::rail_of(const Scene &scene, const Side &side) const
+  Body PlacedWheel::rail_of(const Side &side) const
   {
     const std::vector<WheelPatch> &patches = side.contact.patches;
     const ProfileCurve             profile = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
@@ -363,7 +358,7 @@ namespace tread
   } // namespace
 
 
-  Body PlacedWheel::rail_of_slices(const Scene &scene) const
+  Body PlacedWheel::rail_of_slices() const
   {
     const auto          in_mesh = from_track(false);
     std::optional<Body> rail;
@@ -409,7 +404,7 @@ namespace tread
   }
 
 
-  Body PlacedWheel::wheel_of(const Scene &scene, const Side &side) const
+  Body PlacedWheel::wheel_of(const Side &side) const
   {
     const std::vector<WheelPatch> &patches = side.contact.patches;
     const ProfileCurve            &profile = surfaces.wheel();

@@ -42,10 +42,7 @@ namespace tread
 
   double depth_in_rail(const Scene &scene, const dealii::Point<3> &p)
   {
-    if (scene.is_positioned())
-      return scene.placed_wheel().place_in_rail(p).below;
-    const auto &height = scene.surfaces().defect;
-    return scene.surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
+    return scene.stance().depth_in_rail(p);
   }
 
 

@@ -121,43 +121,17 @@ namespace tread
 
   double factor_across(const Scene &scene, const Vector3 &place)
   {
-    constexpr double step = 50e-6; // m
-    if (!scene.is_positioned())
-      {
-        const auto &top = scene.surfaces().rail_top;
-        return scene.contact.factor_across(
-          place[1], std::atan2(top(place[1] + step) - top(place[1] - step), 2. * step));
-      }
-    const WheelOnRail &in_track = scene.placed_wheel().surfaces;
-    const auto        &rail     = in_track.rail();
-    const double       y        = std::clamp(place[1] + in_track.rail_origin_y(), rail.begin(), rail.end());
-    return scene.contact.factor_across(y - in_track.rail_origin_y(), std::atan(rail.slope(y)));
+    return scene.stance().factor_across(place);
   }
 
 
   double mean_factor_across(const Scene &scene)
   {
-    double     sum = 0., weights = 0.;
-    const auto add = [&](const double y, const double weight) {
-      sum += weight * factor_across(scene, Vector3{0., y, 0., 0.});
-      weights += weight;
-    };
-    if (scene.is_positioned())
-      for (const WheelPatch &patch : scene.placed_wheel().patches())
-        for (const PatchNode &node : elements_in_contact(patch))
-          add(patch.region.reference[1] + std::cos(patch.angle()) * node.position[1] -
-                scene.placed_wheel().surfaces.rail_origin_y(),
-              node.pressure);
-    else
+    double sum = 0., weights = 0.;
+    for (const auto &[y, weight] : scene.stance().loaded_lines())
       {
-        // Hertz's pressure, summed along the rail.
-        constexpr int n = 50;
-        for (int k = -n; k <= n; ++k)
-          {
-            const double part = (k + 0.) / (n + 1);
-            add(0.5 * ((1. - part) * scene.patch_extent().begin + (1. + part) * scene.patch_extent().end),
-                1. - part * part);
-          }
+        sum += weight * factor_across(scene, Vector3{0., y, 0., 0.});
+        weights += weight;
       }
     return weights > 0. ? sum / weights : 1.;
   }

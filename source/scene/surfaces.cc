@@ -309,12 +309,7 @@ namespace tread
 
   double Scene::rolling_radius() const
   {
-    if (wheelset.both_wheels) // which have different ones
-      return wheel.radius;
-    if (is_positioned())
-      return placed_wheel().main_patch().rolling_radius;
-    const auto &offset = surfaces().tread_offset;
-    return wheel.radius + (offset ? offset(first_contact().y) : 0.);
+    return stance().rolling_radius();
   }
 
 

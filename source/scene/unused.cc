@@ -91,7 +91,8 @@ namespace tread
 
   std::vector<std::string> Scene::unused_parameters() const
   {
-    const bool         defect_of_file = defect.shape == "profile" || defect.shape == "map";
+    const bool defect_of_file = defect.shape == "profile" || defect.shape == "map",
+               positioned     = is_positioned();
     std::vector<Group> groups{
       {"Wheel",
        {"Rim inner radius (mm)", "Rim width (mm)", "Web thickness (mm)", "Hub outer radius (mm)",
@@ -102,11 +103,11 @@ namespace tread
       {"Wheel",
        {"Sector thickness (mm)", "Sector width (mm)", "Sector margin (mm)"},
        "Shape",
-       !wheel.is_full() || is_positioned(),
+       !wheel.is_full() || positioned,
        "sector"},
       {"Wheel", {"Deviation pitch (deg)"}, "Deviation", !wheel.deviation.empty(), "a file or a rule"},
       {"Wheel", {"Deviation smoothing (mm)"}, "Deviation", wheel.has_scan(), "a file"},
-      {"Wheelset", {}, "Lateral shift (mm)", is_positioned(), "a number"},
+      {"Wheelset", {}, "Lateral shift (mm)", positioned, "a number"},
       {"Guidance", {"File"}, "Kind", guidance.kind == Guidance::file, "file"},
       {"Guidance",
        {"Lateral stiffness (MN per m)", "Lateral damping (kN s per m)", "Lateral force (kN)",
@@ -135,7 +136,7 @@ namespace tread
       {"Wheelset",
        {"Track gauge (mm)", "Gauge depth (mm)"},
        "Rail/Shape",
-       !is_positioned() || !rail.is_sliced(),
+       !positioned || !rail.is_sliced(),
        "head"},
       {"Rail",
        {"Profile", "Measured head", "Measured head mirrored", "Measured head shift (mm)", "Inclination"},

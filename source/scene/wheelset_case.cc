@@ -275,7 +275,10 @@ namespace tread
     for (const TouchedPiece &piece : scene.placed_wheel().way().pieces)
       for (const TouchedPiece::Touch &touch : piece.touches)
         require_margin(touch.patch);
-    check_sector(scene);
+    require(!wheel_is_ring(scene),
+            "'Motion/Rolled distance (mm)' with 'Wheel/Sector margin (mm)' at both ends exceeds 95 % of the "
+            "wheel's circumference, " +
+              text_in_mm(longest_sector(scene)) + ", where 'Wheelset' has a position");
     check_plasticity(scene);
     check_numerics(scene);
   }

@@ -90,7 +90,7 @@ namespace tread
         }
     constexpr double far_from_load = 0.005; // of it
     if (const double normal_force = end_of_way.force_on(model.wheels.front())[2]; !scene.has_impacts())
-      if (const double load = (scene.is_positioned() ? scene.wheelset.n_wheels() : 1) * scene.static_load();
+      if (const double load = scene.stance().n_loads() * scene.static_load();
           std::abs(normal_force - load) > far_from_load * load)
         warnings.push_back(
           normal_force > 0.

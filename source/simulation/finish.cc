@@ -256,9 +256,9 @@ namespace tread
     // Where nothing is steady, the figures of one instant say little.
     if (scene.rolls_smoothly())
       std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
-                  scene.is_positioned() ? "vertical" : "normal", 1e-3 * force[2],
-                  100. * end_of_way.normal_ripple(), force[2] > 0. ? force[0] / force[2] : 0.,
-                  compared.by_patch.c_str(), report.summary.table().c_str());
+                  scene.stance().load_direction().c_str(), 1e-3 * force[2], 100. * end_of_way.normal_ripple(),
+                  force[2] > 0. ? force[0] / force[2] : 0., compared.by_patch.c_str(),
+                  report.summary.table().c_str());
     std::printf("\n%s%s%s", below.c_str(), compared.note.c_str(), compared.note.empty() ? "" : "\n");
     for (const std::string &warning : report.warnings)
       std::printf("WARNING: %s\n", warning.c_str());

@@ -186,8 +186,7 @@ namespace tread
     for (const ContactNodeState &state : contact.active_nodes())
       for (const RollingWheel &wheel : wheels)
         if (state.master_body == wheel.body)
-          of_wheels[wheel.number].push_back(
-            scene.is_positioned() ? wheelset.placed().in_contact_axes(state, wheel.hub.motion.x) : state);
+          of_wheels[wheel.number].push_back(wheelset.stance().in_contact_axes(state, wheel.hub.motion.x));
     return of_wheels;
   }
 
@@ -230,9 +229,9 @@ namespace tread
           format("contact leaves what is meshed for it at x = %.2f mm, y = %.2f mm, z = %.2f mm: raise "
                  "'Mesh/Fine half width (mm)' or change %s",
                  1e3 * (*place)[0], 1e3 * (*place)[1], 1e3 * (*place)[2],
-                 scene.guidance.kind != Guidance::rigid ? "where section 'Guidance' lets the wheelset go"
-                 : scene.is_positioned()                ? "'Wheelset/Lateral shift (mm)'"
-                                                        : "'Wheel/Lateral position (mm)'"));
+                 (scene.guidance.kind != Guidance::rigid ? "where section 'Guidance' lets the wheelset go"
+                                                         : scene.stance().across_parameter())
+                   .c_str()));
       }
   }
 } // namespace tread

@@ -18,25 +18,8 @@ namespace tread
 
   void RollingWheel::place(const Scene &scene)
   {
-    hub.motion          = WheelHub::Motion();
-    const Vector3 start = Vector3{scene.path_begin(number), 0., 0., 0.};
-    if (scene.is_positioned())
-      {
-        const WheelsetPosition &position = scene.placed_wheel().contact.position;
-        hub.place(start + scene.placed_wheel().middle(), position.yaw, position.roll);
-        if (scene.guidance.kind == Guidance::file)
-          hub.follow([&scene](const double time) { return scene.across(time); });
-        else if (scene.guidance.kind == Guidance::springs)
-          hub.release(scene.guidance.springs);
-        if (scene.rail.is_sliced())
-          hub.ride([&scene](const double x) { return scene.placed_wheel().way().curvature(x); });
-        hub.motion.angular_velocity = given_angular_velocity(scene);
-      }
-    else
-      {
-        hub.place(start + Vector3{0., 0., scene.axle_height(), 0.});
-        hub.motion.angular_velocity = scene.motion.speed / scene.rolling_radius();
-      }
+    hub.motion = WheelHub::Motion();
+    scene.stance().place(hub, number);
   }
 
 

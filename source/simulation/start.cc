@@ -30,16 +30,10 @@ namespace tread
 
   void Simulation::prepare_start(Progress &progress)
   {
-    const double                                         began = progress.seconds();
-    std::vector<std::optional<reference::RollingResult>> half_space;
+    const double           began = progress.seconds();
+    std::vector<Tractions> tractions;
     for (RollingWheel &wheel : model.wheels)
       {
-        if (scene.is_positioned())
-          {
-            wheel.target_creepage =
-              given_angular_velocity(scene) * scene.rolling_radius() / scene.motion.speed - 1.;
-            break;
-          }
         const auto own  = model.wheels.begin() + wheel.number;
         const auto like = std::find_if(model.wheels.begin(), own, [&](const RollingWheel &before) {
           const auto friction = [&](const RollingWheel &w) {
@@ -49,17 +43,15 @@ namespace tread
                  friction(before) == friction(wheel);
         });
         if (like == own)
-          half_space.push_back(predict_rolling(wheel, progress));
+          tractions.push_back(predict_rolling(wheel, progress));
         else
           {
-            half_space.push_back(half_space[like->number]);
+            tractions.push_back(tractions[like->number]);
             wheel.target_creepage = like->target_creepage;
           }
       }
     starts_with_tractions =
-      scene.is_positioned()
-        ? scene.start.tractions == StartTractions::predicted
-        : std::all_of(half_space.begin(), half_space.end(), [](const auto &fields) { return bool(fields); });
+      std::all_of(tractions.begin(), tractions.end(), [](const Tractions &known) { return bool(known); });
 
     const auto measure_free_rolling = [&]() {
       model.contact.complete_state();
@@ -95,22 +87,17 @@ namespace tread
           free_rolling_known = true;
           // On a track those to the side, of spin, are left to build up: an iteration takes long to bend the
           // rail that way.
-          model.contact.give_tractions(
-            [half_space, to_the_side = !model.supports, this](const Vector3 place) {
-              const auto distance = [&](const RollingWheel &wheel) {
-                return std::abs(place[0] - wheel.hub.motion.x);
-              };
-              const RollingWheel &nearest = *std::min_element(
-                model.wheels.begin(), model.wheels.end(),
-                [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
-              if (scene.is_positioned())
-                return scene.placed_wheel().traction_over_pressure(place -
-                                                                   Vector3{nearest.hub.motion.x, 0., 0., 0.});
-              const Vector3 ratio =
-                traction_over_pressure(*half_space[nearest.number], place[0] - nearest.hub.motion.x,
-                                       place[1] - scene.first_contact().y);
-              return Vector3{ratio[0], to_the_side ? ratio[1] : 0., 0., 0.};
-            });
+          model.contact.give_tractions([tractions, to_the_side = !model.supports, this](const Vector3 place) {
+            const auto distance = [&](const RollingWheel &wheel) {
+              return std::abs(place[0] - wheel.hub.motion.x);
+            };
+            const RollingWheel &nearest = *std::min_element(
+              model.wheels.begin(), model.wheels.end(),
+              [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
+            const Vector3 ratio =
+              tractions[nearest.number](place - Vector3{nearest.hub.motion.x, 0., 0., 0.});
+            return to_the_side ? ratio : Vector3{ratio[0], 0., 0., 0.};
+          });
         }
       time_left.add(progress.seconds(), share);
       if (progress.due())
@@ -165,10 +152,22 @@ namespace tread
   }
 
 
-  std::optional<reference::RollingResult> Simulation::predict_rolling(RollingWheel &wheel,
-                                                                      Progress     &progress) const
+  Simulation::Tractions Simulation::predict_rolling(RollingWheel &wheel, Progress &progress) const
   {
     const bool predicts_tractions = scene.start.tractions == StartTractions::predicted;
+    if (scene.is_positioned())
+      {
+        wheel.target_creepage =
+          given_angular_velocity(scene) * scene.rolling_radius() / scene.motion.speed - 1.;
+        return predicts_tractions ? [this](const Vector3 &place) {
+          return scene.placed_wheel().traction_over_pressure(place);
+        } : Tractions();
+      }
+    const auto of_patch = [y = scene.first_contact().y](const reference::RollingResult &fields) -> Tractions {
+      return [fields, y](const Vector3 &place) {
+        return traction_over_pressure(fields, place[0], place[1] - y);
+      };
+    };
     if (!scene.motion.creepage)
       {
         reference::RollingCase c = half_space_case(scene, wheel.number);
@@ -177,7 +176,7 @@ namespace tread
           {
             const reference::RollingEstimate estimate = half_space_answer(scene, c, wheel.number);
             wheel.target_creepage                     = -estimate.creepage.value;
-            return predicts_tractions ? std::make_optional(estimate.fields) : std::nullopt;
+            return predicts_tractions ? of_patch(estimate.fields) : Tractions();
           }
         catch (const InputError &error)
           {
@@ -193,7 +192,7 @@ namespace tread
           c.prescribe_force        = false;
           c.creepage               = -wheel.target_creepage;
           set_friction(c, scene, scene.path_begin(wheel.number));
-          return half_space_answer(scene, c, wheel.number).fields;
+          return of_patch(half_space_answer(scene, c, wheel.number).fields);
         }
       catch (const std::bad_alloc &)
         {

@@ -11,6 +11,12 @@ namespace tread
   }
 
 
+  const WheelStance &WheelsetAtSolution::stance() const
+  {
+    return there ? *there : scene.stance();
+  }
+
+
   void WheelsetAtSolution::move_to(const Placement &now)
   {
     placement = now;

@@ -12,7 +12,6 @@ namespace tread
 
   void check_motion(const Scene &scene);
   void check_peak_stress(const Scene &scene);
-  void check_sector(const Scene &scene);
   void check_plasticity(const Scene &scene);
   void check_numerics(const Scene &scene);
   void check_friction_by_temperature(const Scene &scene);

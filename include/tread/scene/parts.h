@@ -53,8 +53,6 @@ namespace tread
   /// stress.
   StripExtent strip_extent(const Scene &scene, const unsigned int window);
 
-  /// Depth below the surface of the rail or of the first wheel, m, in the reference configuration.
-  std::function<double(const dealii::Point<3> &)> depth_in(const Scene &scene, const unsigned int body);
   /// Where the largest stresses of the rail, or of the tread of the first wheel, are looked for.
   PeakRegion              peak_region(const Scene &scene, const unsigned int body);
   SurfaceDamageParameters surface_damage_parameters(const Scene &scene);

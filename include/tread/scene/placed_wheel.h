@@ -9,6 +9,7 @@
 #include <tread/mesh/body.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/touched_pieces.h>
+#include <tread/scene/wheel_stance.h>
 
 #include <map>
 #include <memory>
@@ -22,14 +23,13 @@ namespace tread
   /// The wheel of a wheelset, or both wheels, in its position under the static load, as half-space theory
   /// finds it: where a mesh must be fine, and what a run is compared with.
   ///
-  /// Axes of the mesh: x along the track, the wheelset's middle at the wheel's x; y from the middle of the
-  /// rail's top to the own side; z up from the plane on the rail tops (m). Contact axes of a patch: x, s
-  /// along the tangent plane, n normal to it into the wheel, origin at its reference point; s of the other
-  /// wheel points to its own side.
-  class PlacedWheel
+  /// The wheelset's middle is at the wheel's x. Contact axes of a patch: x, s along the tangent plane, n
+  /// normal to it into the wheel, origin at its reference point; s of the other wheel points to its own side.
+  class PlacedWheel : public WheelStance
   {
   public:
-    /// @throws InputError where wheel and rail do not meet, or no height carries the load.
+    /// @param scene which must stay @throws InputError where wheel and rail do not meet, or no height carries
+    /// the load.
     explicit PlacedWheel(const Scene &scene);
     /// The same in another position.
     PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling);
@@ -42,9 +42,32 @@ namespace tread
     /// Of the own wheel, that with the largest normal force.
     const WheelPatch &main_patch() const;
 
-    /// Whether a place of the rail lies on its surface, and within half a cell on the line on which the wheel
-    /// rolls: through the main patch, or the most loaded touch of slices that is nearest.
-    bool is_on_path(const dealii::Point<3> &p, const double cell) const;
+    double rolling_radius() const override;
+    double patch_y() const override
+    {
+      return origin(main_patch())[1];
+    }
+    unsigned int      n_loads() const override;
+    std::vector<Body> make_bodies(const FineWindow &) const override;
+    void              place(WheelHub &hub, const unsigned int) const override;
+
+    /// Through the main patch, or the most loaded touch of slices that is nearest.
+    bool   is_on_path(const dealii::Point<3> &p, const double cell) const override;
+    double factor_across(const Vector3 &place) const override;
+    std::vector<std::pair<double, double>>                   loaded_lines() const override;
+    std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const override;
+    unsigned int                                             n_separate_patches() const override
+    {
+      return patches().size();
+    }
+    std::string across_parameter() const override
+    {
+      return "'Wheelset/Lateral shift (mm)'";
+    }
+    std::string load_direction() const override
+    {
+      return "vertical";
+    }
 
     /// Of a rail of slices. @pre made of the scene alone
     const WayOverSlices &way() const
@@ -73,9 +96,7 @@ namespace tread
     static Vector3 along(const WheelPatch &patch);
     static Vector3 normal(const WheelPatch &patch);
 
-    /// Force, normal and slip of a node in the contact axes of its patch; its position stays. @param wheel_x
-    /// m
-    ContactNodeState in_contact_axes(ContactNodeState state, const double wheel_x) const;
+    ContactNodeState in_contact_axes(const ContactNodeState &state, const double wheel_x) const override;
     /// Those nodes in contact axes that belong to a patch, their positions too, but for the wheel's x in
     /// them.
     std::vector<ContactNodeState> of_patch(const unsigned int                   number,
@@ -91,39 +112,24 @@ namespace tread
     std::vector<PatchNode> table_nodes() const;
     std::vector<PatchNode> table_nodes(const WheelPatch &patch) const; ///< of one patch
 
-    /// The main patch as an ellipse of its length and width, at another normal force in proportion (N).
-    reference::HertzEllipse ellipse(const double vertical_force) const;
+    /// An ellipse of the main patch's length and width, at another vertical force in proportion (N).
+    reference::HertzEllipse ellipse(const double vertical_force) const override;
 
-    /// Rail and wheel, or both of them: blocks behind the running surfaces, finest at the patches.
-    Body make_rail(const Scene &scene) const;
-    Body make_wheel(const Scene &scene) const;
-
-    /// How far a place in a body is `beside` a patch, in its plane, and `below` the running surface, across
-    /// this plane, and where along the path it is, on the wheel from where it touches at the start (m).
-    struct Place
-    {
-      double along, beside, below;
-    };
     Place place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// @param start_x of the wheel in the reference configuration
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
     /// Of the patch that is nearest.
-    Place place_in_rail(const dealii::Point<3> &p) const;
-
-    /// The way of a patch of the own wheel along the rail: of the main one, or of the most loaded on each
-    /// piece of slices.
-    struct Path
+    Place              place_in_rail(const dealii::Point<3> &p) const;
+    std::vector<Place> places_under(const dealii::Point<3> &p, const unsigned int body) const override;
+    double             depth_in_rail(const dealii::Point<3> &p) const override
     {
-      const TouchedPiece *piece;      ///< null: the rail is the same everywhere
-      std::string         name;       ///< of the piece; empty: none
-      double              begin, end; ///< x of the patch's reference point at both ends (m)
-      double              half_width; ///< of the widest patch (m)
-      double              ahead;      ///< how far from the axle it is at most, m
-    };
+      return place_in_rail(p).below;
+    }
+
+    std::vector<Path> paths() const override;
+    Strip             strip(const unsigned int body, const double begin, const double end) const override;
     /// Those that hold a stretch of the rail; that with the largest force there first.
     std::vector<Path> paths_over(double begin, double end) const;
-    /// All of them.
-    std::vector<Path> paths() const;
     /// How far a place of the rail is beside a path (m).
     double beside(const Path &path, const dealii::Point<3> &p) const;
     /// Of the patch that rolls there; `along` is where this part of the tread meets the rail.
@@ -148,15 +154,17 @@ namespace tread
     std::function<dealii::Point<3>(const Vector3d &)> from_track(const bool is_mirrored) const;
     /// A body from its piece at each side.
     Body of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const;
-    Body rail_of(const Scene &scene, const Side &side) const;
-    Body rail_of_slices(const Scene &scene) const;
-    Body wheel_of(const Scene &scene, const Side &side) const;
+    /// Blocks behind the running surfaces, finest at the patches.
+    Body rail_of(const Side &side) const;
+    Body rail_of_slices() const;
+    Body wheel_of(const Side &side) const;
 
     /// How far a place is beside the path of a piece of slices (m).
     double beside(const TouchedPiece &piece, const dealii::Point<3> &p) const;
     /// Of slices, where a place is in the piece whose path is nearest.
     Place place_in_slices(const dealii::Point<3> &p) const;
 
+    const Scene      &scene;
     std::vector<Side> sides;
     double            load;               ///< on a wheel, N
     double            way_begin, way_end; ///< x of the axle, m

@@ -28,6 +28,7 @@
 #include <tread/scene/sections/watchdogs.h>
 #include <tread/scene/sections/wheel.h>
 #include <tread/scene/sections/wheelset.h>
+#include <tread/scene/upright_wheel.h>
 #include <tread/scene/wheelset_motion.h>
 #include <tread/track/supports.h>
 
@@ -51,6 +52,7 @@ namespace tread
   {
   public:
     Scene();
+    Scene(const Scene &) = delete; ///< what stands on it refers to it
 
     GeneralSection       general;
     WheelSection         wheel;
@@ -119,6 +121,11 @@ namespace tread
     /// seconds.
     /// @pre is_positioned() @throws InputError
     const PlacedWheel &placed_wheel() const;
+    /// How the wheels stand on the rail: upright, or as placed_wheel(). @throws InputError
+    const WheelStance &stance() const
+    {
+      return is_positioned() ? static_cast<const WheelStance &>(placed_wheel()) : upright;
+    }
     /// Where the wheelset stands at a time from the start (s) if 'Guidance' has a file. @pre guidance.kind is
     /// file
     Across across(const double time) const;
@@ -339,6 +346,7 @@ namespace tread
 
     ParameterFile                              input;
     std::shared_ptr<const Shapes>              shapes;
+    const UprightWheel                         upright{*this};
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
     std::vector<BeamRow>                       beam_rows;

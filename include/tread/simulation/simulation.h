@@ -100,10 +100,12 @@ namespace tread
     void go_on_from(Simulation &before);
 
     void prepare_start(Progress &progress);
+    /// Traction on the wheel over the pressure [-] at a place whose x is from the wheel's; none: not known.
+    using Tractions = std::function<Vector3(const Vector3 &)>;
     /// Half-space theory's rolling for a wheel's start, from which its creepage is taken if it is to be
-    /// predicted; nothing where tractions are not. @returns the fields of its tractions.
-    std::optional<reference::RollingResult> predict_rolling(RollingWheel &wheel, Progress &progress) const;
-    void                                    set_drive();
+    /// predicted. @returns its tractions, none where they are not wanted.
+    Tractions predict_rolling(RollingWheel &wheel, Progress &progress) const;
+    void      set_drive();
 
     void announce(Progress &progress) const;
     void announce_steps(Progress &progress) const;

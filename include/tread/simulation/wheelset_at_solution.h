@@ -31,6 +31,8 @@ namespace tread
 
     /// @pre scene.is_positioned()
     const PlacedWheel &placed() const;
+    /// The same, or an upright wheel, which stays one.
+    const WheelStance &stance() const;
 
     bool has_moved() const
     {

@@ -126,13 +126,11 @@ namespace tread
     std::vector<unsigned int> nodes_on_line(const Model &model)
     {
       const Scene              &scene = model.scene;
-      const double              half  = 0.5 * scene.mesh.finest_cell * (1. + 1e-6);
       std::vector<unsigned int> nodes;
       for (const unsigned int i : model.mesh.boundary_nodes(rail_body, Boundary::contact))
         if (const dealii::Point<3> &p = model.mesh.nodes[i];
             model.mesh.shared_nodes.is_owned(i) && is_in_middle_of(scene, p) &&
-            (scene.is_positioned() ? scene.placed_wheel().is_on_path(p, scene.mesh.finest_cell)
-                                   : std::abs(p[1] - path_y(scene)) <= half))
+            scene.stance().is_on_path(p, scene.mesh.finest_cell))
           nodes.push_back(i);
       return nodes;
     }

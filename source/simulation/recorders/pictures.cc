@@ -70,7 +70,9 @@ namespace tread
       {
         const std::vector<ElasticMaterial> of_bodies = materials(model.scene);
         std::vector<RecoveredBody>         bodies{
-          {rail_body, of_bodies[rail_body], depth_in(model.scene, rail_body)}};
+          {rail_body, of_bodies[rail_body], [&scene = model.scene](const dealii::Point<3> &p) {
+             return depth_in_rail(scene, p);
+           }}};
         for (const RollingWheel &wheel : model.wheels)
           bodies.push_back(
             {wheel.body, of_bodies[wheel.body], [axle = wheel.hub.start()](const dealii::Point<3> &p) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// make_bodies() is in bodies.cc, ellipse() in half_space_case.cc.
+#include <tread/scene/fine_cells.h>
+#include <tread/scene/parts.h>
+#include <tread/scene/upright_wheel.h>
+
+#include <cmath>
+
+namespace tread
+{
+  double UprightWheel::rolling_radius() const
+  {
+    const auto &offset = scene.surfaces().tread_offset;
+    return scene.wheel.radius + (offset ? offset(scene.first_contact().y) : 0.);
+  }
+
+
+  double UprightWheel::patch_y() const
+  {
+    return scene.first_contact().y;
+  }
+
+
+  void UprightWheel::place(WheelHub &hub, const unsigned int number) const
+  {
+    hub.place(Vector3{scene.path_begin(number), 0., scene.axle_height(), 0.});
+    hub.motion.angular_velocity = scene.motion.speed / rolling_radius();
+  }
+
+
+  std::vector<WheelStance::Place> UprightWheel::places_under(const dealii::Point<3> &p,
+                                                             const unsigned int      body) const
+  {
+    const double beside = p[1] - path_y(scene);
+    if (body == rail_body)
+      return {{p[0], beside, scene.rail_mesh() ? depth_in_rail(p) : -scene.in_rail_axes(p)[2]}};
+    const double dx = p[0] - scene.path_begin(body - wheel_body(0)), dz = p[2] - scene.axle_height();
+    return {{scene.wheel.radius * std::atan2(dx, -dz), beside, scene.wheel.radius - std::hypot(dx, dz)}};
+  }
+
+
+  double UprightWheel::depth_in_rail(const dealii::Point<3> &p) const
+  {
+    const auto &height = scene.surfaces().defect;
+    return scene.surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
+  }
+
+
+  std::vector<WheelStance::Path> UprightWheel::paths() const
+  {
+    const double half_cell = 0.5 * scene.mesh.finest_cell;
+    return {{nullptr, "", scene.path_begin(), scene.path_end() + half_cell, 0., 0.}};
+  }
+
+
+  WheelStance::Strip UprightWheel::strip(const unsigned int body, const double, const double) const
+  {
+    const double y = patch_y();
+    if (body == rail_body)
+      return {paths().front(), [this, y](const dealii::Point<3> &p) -> Place {
+                return {p[0], p[1] - y, depth_in_rail(p)};
+              }};
+    return {paths().front(),
+            [this, y, begin = scene.path_begin(), height = scene.axle_height(),
+             radius = rolling_radius()](const dealii::Point<3> &p) -> Place {
+              const double ahead = p[0] - begin, down = height - p[2], angle = std::atan2(ahead, down);
+              return {begin + radius * angle, p[1] - y,
+                      scene.surfaces().wheel_radius(angle, p[1]) - std::hypot(ahead, down)};
+            }};
+  }
+
+
+  bool UprightWheel::is_on_path(const dealii::Point<3> &p, const double cell) const
+  {
+    return std::abs(p[1] - path_y(scene)) <= 0.5 * cell * (1. + 1e-6);
+  }
+
+
+  double UprightWheel::factor_across(const Vector3 &place) const
+  {
+    constexpr double step = 50e-6; // m
+    const auto      &top  = scene.surfaces().rail_top;
+    return scene.contact.factor_across(place[1],
+                                       std::atan2(top(place[1] + step) - top(place[1] - step), 2. * step));
+  }
+
+
+  std::vector<std::pair<double, double>> UprightWheel::loaded_lines() const
+  {
+    // Hertz's pressure, summed along the rail.
+    constexpr int                          n     = 50;
+    const Scene::PatchExtent              &patch = scene.patch_extent();
+    std::vector<std::pair<double, double>> lines;
+    for (int k = -n; k <= n; ++k)
+      {
+        const double part = (k + 0.) / (n + 1);
+        lines.emplace_back(0.5 * ((1. - part) * patch.begin + (1. + part) * patch.end), 1. - part * part);
+      }
+    return lines;
+  }
+
+
+  std::vector<std::pair<std::string, std::vector<Island>>> UprightWheel::parts_of_patches() const
+  {
+    if (scene.is_between_planes()) // whose patch goes on as its own image
+      return {};
+    return {{"the patch", scene.islands()}};
+  }
+} // namespace tread
