@@ -1,54 +1,26 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/track/wheel_hub.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 namespace tread
 {
-  double SettlingOfHub::mass() const
-  {
-    const double per_radian = time / (2. * std::numbers::pi);
-    return std::max(stiffness * per_radian * per_radian, carried_mass);
-  }
-
-
-  double SettlingOfHub::damping() const
-  {
-    return std::sqrt(stiffness * (mass() + cell_mass));
-  }
-
-
-  double SettlingOfHub::companion_mass() const
-  {
-    return 4. * (mass() + cell_mass);
-  }
-
-
   void WheelHub::place(const Vector3 middle, const double yaw, const double roll)
   {
     motion.yaw  = yaw;
     motion.roll = roll;
-    reference = present = frame(yaw, roll);
+    reference = present = WheelsetAxes::of(yaw, roll);
     motion.x = reference_x = middle[0];
     motion.y               = 0.;
     reference_y            = middle[1];
     motion.z = reference_z = middle[2];
-    guidance               = Guidance::rigid;
-    companions             = Companions();
+    guidance.hold();
+    settling.place();
     if (flexible)
       flexible->place();
     balance_suspension();
-  }
-
-
-  WheelHub::Frame WheelHub::frame(const double yaw, const double roll)
-  {
-    const double c = std::cos(yaw), s = std::sin(yaw), cr = std::cos(roll), sr = std::sin(roll);
-    return {Vector3{c, cr * s, -sr * s, 0.}, Vector3{-s, cr * c, -sr * c, 0.}, Vector3{0., sr, cr, 0.}};
   }
 
 
@@ -58,20 +30,11 @@ namespace tread
   }
 
 
-  void WheelHub::follow(const std::function<Across(double)> &given)
-  {
-    guidance      = Guidance::file;
-    guidance_time = 0.;
-    across        = given;
-  }
-
-
   void WheelHub::begin_to_follow(const double time_step, const double rise, const double roll_rate)
   {
-    const Across now = across(0.), next = across(time_step);
-    motion.velocity_y = (next.y - now.y) / time_step;
-    motion.yaw_rate   = (next.yaw - now.yaw) / time_step;
-    motion.roll_rate  = rolls() ? roll_rate : (next.roll - now.roll) / time_step;
+    guidance.begin(motion, time_step, rolls());
+    if (rolls())
+      motion.roll_rate = roll_rate;
     begin_to_rise(rise);
   }
 
@@ -79,42 +42,14 @@ namespace tread
   void WheelHub::begin_to_rise(const double speed)
   {
     motion.velocity_z = speed;
-    companions        = {speed, motion.roll_rate};
-    if (parameters.settling && curvature_of_way) // the suspension carries the load, and nothing else
-      motion.sprung_velocity = speed;
-  }
-
-
-  void WheelHub::ride(const std::function<double(const double)> &curvature)
-  {
-    curvature_of_way = curvature;
-  }
-
-
-  double WheelHub::carrying_force(const double time_step)
-  {
-    if (!parameters.settling || !curvature_of_way)
-      return 0.;
-    const double acceleration = curvature_of_way(motion.x) * motion.velocity_x * motion.velocity_x;
-    companions.up += time_step * acceleration;
-    motion.sprung_velocity += time_step * acceleration;
-    return (parameters.settling->mass() + parameters.settling->cell_mass) * acceleration;
+    settling.begin(motion, speed);
   }
 
 
   void WheelHub::roll_by(const double angle)
   {
     motion.roll += angle;
-    present = frame(motion.yaw, motion.roll);
-  }
-
-
-  void WheelHub::release(const GuidanceSprings &on)
-  {
-    guidance      = Guidance::springs;
-    guidance_time = 0.;
-    springs       = on;
-    released_yaw  = motion.yaw;
+    present = WheelsetAxes::of(motion.yaw, motion.roll);
   }
 
 
@@ -139,7 +74,7 @@ namespace tread
   }
 
 
-  std::array<WheelHub::Turn, 2> WheelHub::turns() const
+  std::array<Turn, 2> WheelHub::turns() const
   {
     if (!flexible)
       return {Turn(motion.angle), Turn(motion.angle)};
@@ -168,82 +103,28 @@ namespace tread
   {
     FlexibleAxle::OfSides<FlexibleAxle::Tilt> outside;
     for (const FlexibleAxle::Side side : {FlexibleAxle::own, FlexibleAxle::other})
-      outside[side] = in_chord(on_wheels[side] + gyroscopic_moment_of(side));
+      outside[side] = present.tilt(on_wheels[side] + gyroscopic_moment_of(side));
     const auto unbalanced = flexible->unbalanced(outside);
-    return {{in_space(unbalanced[FlexibleAxle::own]), in_space(unbalanced[FlexibleAxle::other])}};
+    return {{present.vector(unbalanced[FlexibleAxle::own]), present.vector(unbalanced[FlexibleAxle::other])}};
   }
 
 
-  double WheelHub::guide(const double lateral, const Vector3 moment, const double time_step)
+  double WheelHub::move_across(const double lateral, const Vector3 moment, const double time_step)
   {
     const Motion before = motion;
-    // Wheels on an axle that bends turn by themselves.
-    const double yaw_inertia = parameters.yaw_inertia - of_turning_wheels();
-    double       settling    = 0.; // work
+    double       damped = 0.; // work
     if (rolls())
       {
-        const double damper = settling_force(motion.roll_rate, companions.roll, per_roll(), time_step);
+        const double damper = settling.roll(motion, time_step);
         motion.roll_rate += time_step * (damper - moment[0]) / (roll_inertia() - of_turning_wheels());
         motion.roll += time_step * motion.roll_rate;
-        settling = 0.5 * time_step * damper * (before.roll_rate + motion.roll_rate);
+        damped = 0.5 * time_step * damper * (before.roll_rate + motion.roll_rate);
       }
-    if (guidance == Guidance::rigid)
-      {
-        lateral_guidance = -lateral;
-        return settling;
-      }
-    const double yaw_moment  = dot(moment, present.z);
-    double       yaw_support = 0.; // moment of guidance
-    if (guidance == Guidance::file)
-      {
-        const Across next = across(guidance_time + time_step);
-        motion.velocity_y = (next.y - motion.y) / time_step;
-        motion.yaw_rate   = (next.yaw - motion.yaw) / time_step;
-        if (!rolls())
-          motion.roll_rate = (next.roll - motion.roll) / time_step;
-        lateral_guidance = parameters.mass * (motion.velocity_y - before.velocity_y) / time_step - lateral;
-        yaw_support      = yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - yaw_moment;
-        // Free rolling may lie beside what theory takes for it.
-        if (next.angular_velocity)
-          motion.angular_velocity += *next.angular_velocity - *across(guidance_time).angular_velocity;
-      }
-    else
-      {
-        if (!springs.force)
-          springs.force = -lateral;
-        if (!springs.moment)
-          springs.moment = -yaw_moment;
-        lateral_guidance =
-          *springs.force - springs.stiffness * motion.y - springs.damping * motion.velocity_y;
-        yaw_support = *springs.moment - springs.yaw_stiffness * (motion.yaw - released_yaw) -
-                      springs.yaw_damping * motion.yaw_rate;
-        motion.velocity_y += time_step * (lateral + lateral_guidance) / parameters.mass;
-        if (yaw_inertia > 0.)
-          motion.yaw_rate += time_step * (yaw_moment + yaw_support) / yaw_inertia;
-      }
-    guidance_time += time_step;
-    motion.y += time_step * motion.velocity_y;
-    motion.yaw += time_step * motion.yaw_rate;
-    if (!rolls())
-      motion.roll += time_step * motion.roll_rate;
-    const double roll_support = rolls() ? 0. : moment[0]; // about -x, against that of the cells
-    return settling + 0.5 * time_step *
-                        (lateral_guidance * (before.velocity_y + motion.velocity_y) +
-                         yaw_support * (before.yaw_rate + motion.yaw_rate) +
-                         roll_support * (before.roll_rate + motion.roll_rate));
-  }
-
-
-  double WheelHub::settling_force(const double velocity,
-                                  double      &companion,
-                                  const double scale,
-                                  const double time_step) const
-  {
-    if (!parameters.settling)
-      return 0.;
-    const double force = scale * parameters.settling->damping() * (companion - velocity);
-    companion -= time_step * force / (scale * parameters.settling->companion_mass());
-    return force;
+    // Wheels on an axle that bends turn by themselves.
+    return damped + guidance.advance(motion, before,
+                                     {lateral, dot(moment, present.z), moment[0], parameters.mass,
+                                      parameters.yaw_inertia - of_turning_wheels(), rolls()},
+                                     time_step);
   }
 
 
@@ -260,8 +141,8 @@ namespace tread
         moment += dot(tilted_axle(side) - axle(), on_wheels[side]);
     const double suspension = parameters.suspension_stiffness * (motion.z - equilibrium_z - motion.sprung_z) +
                               parameters.suspension_damping * (motion.velocity_z - motion.sprung_velocity);
-    const double damper         = settling_force(motion.velocity_z, companions.up, 1., time_step);
-    const double carrying       = carrying_force(time_step);
+    const double damper         = settling.lift(motion, time_step);
+    const double carrying       = settling.carry(motion, time_step);
     const double vertical_force = force[2] + static_force() - suspension + damper + carrying;
     const double acceleration   = vertical_force / mass_up();
 
@@ -278,14 +159,14 @@ namespace tread
     if (rolls())
       on_chord += gyroscopic_moment();
     const Vector3 tilting_before = tilting();
-    const double  guiding =
-      guide(force[1] + before.angular_velocity * before.angular_velocity * moments[1], on_chord, time_step);
+    const double  guiding        = move_across(
+              force[1] + before.angular_velocity * before.angular_velocity * moments[1], on_chord, time_step);
     if (flexible)
       flexible->advance(
-        {{in_chord(unbalanced[FlexibleAxle::own]), in_chord(unbalanced[FlexibleAxle::other])}},
+        {{present.tilt(unbalanced[FlexibleAxle::own]), present.tilt(unbalanced[FlexibleAxle::other])}},
         {{dot(tilted_axle(FlexibleAxle::own), on_wheels[FlexibleAxle::own]),
           dot(tilted_axle(FlexibleAxle::other), on_wheels[FlexibleAxle::other])}},
-        in_chord((1. / time_step) * (tilting() - tilting_before)), inertia_of_wheel(), time_step);
+        present.tilt((1. / time_step) * (tilting() - tilting_before)), inertia_of_wheel(), time_step);
     // with it the angular velocity is as prescribed; includes the weight's moment
     double turning_outside =
       parameters.moment_of_inertia * (motion.angular_velocity - before.angular_velocity) / time_step -
@@ -315,7 +196,8 @@ namespace tread
       time_step * turning_outside * 0.5 * (before.angular_velocity + motion.angular_velocity);
     work += along + up + turn + guiding;
     gross += std::abs(along) + std::abs(up) + std::abs(turn) + std::abs(guiding);
-    present = guidance == Guidance::rigid && !rolls() ? present : frame(motion.yaw, motion.roll);
+    if (may_tilt())
+      present = WheelsetAxes::of(motion.yaw, motion.roll);
   }
 
 
@@ -325,7 +207,7 @@ namespace tread
       return middle() + turned(arm, turns[FlexibleAxle::own]);
     const auto    side = dot(reference.y, arm) > 0. ? FlexibleAxle::own : FlexibleAxle::other;
     const Vector3 from = middle_of(side), way = middle() + turned(arm, turns[side]) - from;
-    const Vector3 tilt = in_space(flexible->tilt(side));
+    const Vector3 tilt = present.vector(flexible->tilt(side));
     // Rodrigues.
     const double angle = std::sqrt(dot(tilt, tilt));
     if (angle == 0.)
@@ -344,7 +226,7 @@ namespace tread
     const FlexibleAxle::Side side = side_of(x);
     const double             spin = motion.angular_velocity + flexible->twist_rate(side);
     return of_chord + cross(spin * tilted_axle(side) - motion.angular_velocity * present.y +
-                              in_space(flexible->tilt_rate(side)),
+                              present.vector(flexible->tilt_rate(side)),
                             x - middle_of(side));
   }
 
@@ -359,15 +241,16 @@ namespace tread
            0.5 * parameters.moment_of_inertia * motion.angular_velocity * motion.angular_velocity +
            0.5 * parameters.yaw_inertia * motion.yaw_rate * motion.yaw_rate +
            (rolls() ? 0.5 * roll_inertia() * motion.roll_rate * motion.roll_rate : 0.) +
-           (flexible ? flexible->kinetic_energy(in_chord(tilting()), inertia_of_wheel()) : 0.);
+           (flexible ? flexible->kinetic_energy(present.tilt(tilting()), inertia_of_wheel()) : 0.);
   }
 
 
   void WheelHub::serialize(Archive &archive)
   {
-    archive.same(drive, drive_torque, motion, companions, reference, present, reference_x, reference_y,
-                 reference_z, equilibrium_z, work, gross, guidance, guidance_time, lateral_guidance, springs,
-                 released_yaw);
+    archive.same(drive, drive_torque, motion, reference, present, reference_x, reference_y, reference_z,
+                 equilibrium_z, work, gross);
+    guidance.serialize(archive);
+    settling.serialize(archive);
     if (flexible)
       flexible->serialize(archive);
   }

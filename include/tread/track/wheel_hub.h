@@ -5,9 +5,11 @@
 #include <tread/base/archive.h>
 #include <tread/base/simd.h>
 #include <tread/track/flexible_axle.h>
+#include <tread/track/hub_guidance.h>
+#include <tread/track/hub_motion.h>
+#include <tread/track/hub_settling.h>
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -19,54 +21,6 @@ namespace tread
     creepage,        ///< the angular velocity is prescribed by the creepage
     torque,          ///< a torque acts on the axle
     angular_velocity ///< it is prescribed as such, of a wheelset in a given position
-  };
-
-  /// How a wheelset comes to move across its track and to yaw.
-  enum class Guidance
-  {
-    rigid,  ///< it does not
-    file,   ///< its motion is given over time
-    springs ///< it is free on springs and dampers
-  };
-
-  /// Where a wheelset stands across its track: a roll about x, then a yaw about the rolled vertical axis,
-  /// with the signs of WheelsetPosition. SI units.
-  struct Across
-  {
-    double                y   = 0.; ///< from the start
-    double                yaw = 0., roll = 0.;
-    std::optional<double> angular_velocity{}; ///< about the axle; none: the drive's
-  };
-
-  /// Springs and dampers between a wheelset and a frame that runs along with it. SI units.
-  struct GuidanceSprings
-  {
-    double stiffness = 0., damping = 0.;         ///< lateral, from the start: N/m, N s/m
-    double yaw_stiffness = 0., yaw_damping = 0.; ///< N m, N m s
-    /// Constant part; none: what holds the wheelset in its place at the start (N, N m).
-    std::optional<double> force{}, moment{};
-  };
-
-  /// How a hub follows its load where inertia is no part of the answer. Its own mass would take a hundred
-  /// times as long to sink by what the contact gives way as the contact takes to roll over a patch. A light
-  /// one is there after about a patch, or as soon as the scaled cells let it. Its damper leads to a companion
-  /// on which nothing else acts, so that a hub which rises evenly is free of it. Where the rail's height
-  /// changes along the way both are carried along it.
-  struct SettlingOfHub
-  {
-    double stiffness; ///< of the contacts under the hub, N/m
-    double time;      ///< in which half a patch is rolled over, s
-    double arm;       ///< of the contacts from the middle of the axle, for the roll, m
-    /// That move with the hub, kg, with the density that they have: of its carried nodes, and of free cells.
-    double carried_mass = 0., cell_mass = 0.;
-
-    /// Of the hub, kg: its period on the contact is the time. With less than its nodes would have it would
-    /// shorten the stable time step.
-    double mass() const;
-    /// Of the damper, N s/m, and of the companion, kg. With these, of the masses that move on the contact, 2
-    /// % of a step of the load is left after 7.8 radians of their oscillation.
-    double damping() const;
-    double companion_mass() const;
   };
 
   struct WheelHubParameters
@@ -95,17 +49,11 @@ namespace tread
   class WheelHub
   {
   public:
-    struct Motion
-    {
-      double x = 0., z = 0., angle = 0.;
-      double velocity_x = 0., velocity_z = 0., angular_velocity = 0.;
-      double sprung_z = 0., sprung_velocity = 0.; ///< sprung mass from its equilibrium
-      double y = 0., velocity_y = 0.;             ///< across, from the start
-      double yaw = 0., roll = 0., yaw_rate = 0., roll_rate = 0.;
-    };
+    using Motion = HubMotion;
 
     explicit WheelHub(const WheelHubParameters &parameters)
       : parameters(parameters)
+      , settling(parameters.settling)
     {
       if (parameters.axle)
         flexible.emplace(*parameters.axle);
@@ -116,7 +64,10 @@ namespace tread
     void place(const Vector3 middle, const double yaw = 0., const double roll = 0.);
 
     /// Move across the track as given from now on. @param across at a time from now, s
-    void follow(const std::function<Across(const double time)> &across);
+    void follow(const std::function<Across(const double time)> &across)
+    {
+      guidance.follow(across);
+    }
 
     /// Take the velocities of the motion that is followed. @param time_step over which they are differences,
     /// s. @param rise vertical velocity with it, m/s; @param roll_rate of a hub that rolls, rad/s
@@ -127,7 +78,10 @@ namespace tread
 
     /// A hub that settles is carried along the height at which contact bears the load, so that its mass does
     /// not lag behind. @param curvature second derivative of that height by x, 1/m, at x
-    void ride(const std::function<double(const double x)> &curvature);
+    void ride(const std::function<double(const double x)> &curvature)
+    {
+      settling.ride(curvature);
+    }
 
     /// Whether the roll follows from the forces.
     bool rolls() const
@@ -137,13 +91,16 @@ namespace tread
     /// Whether the axle's direction may change as the wheel moves.
     bool may_tilt() const
     {
-      return guidance != Guidance::rigid || rolls();
+      return !guidance.is_rigid() || rolls();
     }
     /// Turn the axle about x, rad.
     void roll_by(const double angle);
 
     /// Move across the track on springs from now on.
-    void release(const GuidanceSprings &springs);
+    void release(const GuidanceSprings &springs)
+    {
+      guidance.release(springs, motion.yaw);
+    }
 
     /// Define the present position of the axle as the equilibrium of the suspension.
     void balance_suspension()
@@ -164,10 +121,7 @@ namespace tread
     /// Tell the masses of carried nodes and of free cells, as they move, kg, to a hub that settles.
     void settle_with(const double carried, const double cells)
     {
-      if (!parameters.settling)
-        return;
-      parameters.settling->carried_mass = carried;
-      parameters.settling->cell_mass    = cells;
+      settling.count(carried, cells);
     }
 
     /// One central-difference step under the force (N) and the moment about the middle (N m) that
@@ -220,19 +174,9 @@ namespace tread
     /// Mean lateral force of guidance in the last step, on the hub, N.
     double guidance_force() const
     {
-      return lateral_guidance;
+      return guidance.lateral_force();
     }
 
-    /// Cosine and sine of the angle by which a wheel has turned.
-    struct Turn
-    {
-      explicit Turn(const double angle)
-        : cosine(std::cos(angle))
-        , sine(std::sin(angle))
-      {
-      }
-      double cosine, sine;
-    };
     /// Present turns of both wheels, for a loop over points; the first one's is that of a wheel alone.
     std::array<Turn, 2> turns() const;
 
@@ -277,28 +221,16 @@ namespace tread
     WheelHubParameters parameters;
 
   private:
-    /// Velocities of a settling hub's companions: up, m/s, and of the roll, rad/s.
-    struct Companions
-    {
-      double up = 0., roll = 0.;
-    };
-    /// Axes of the wheelset in the track.
-    struct Frame
-    {
-      Vector3 x{1., 0., 0., 0.}, y{0., 1., 0., 0.}, z{0., 0., 1., 0.};
-    };
-    static Frame frame(const double yaw, const double roll);
-
     /// A vector of the reference configuration turned about the axle, and with it.
     Vector3 turned(const Vector3 reference, const Turn turn) const;
 
-    /// Change the velocities across the track, and angular_velocity where it is prescribed. @param lateral,
-    /// moment of all but guidance (N, N m). @returns work of guidance, J
-    double guide(const double lateral, const Vector3 moment, const double time_step);
+    /// Change the motion across the track, its roll, and angular_velocity where it is prescribed. @param
+    /// lateral, moment of all but guidance (N, N m). @returns work of guidance and of the roll's damper, J
+    double move_across(const double lateral, const Vector3 moment, const double time_step);
     /// Inertia against moving up, kg.
     double mass_up() const
     {
-      return parameters.settling ? parameters.settling->mass() : parameters.mass;
+      return settling.mass().value_or(parameters.mass);
     }
     /// Part of yaw and roll inertia that is that of wheels which turn by themselves on an axle that bends, kg
     /// m^2.
@@ -308,22 +240,8 @@ namespace tread
     }
     double roll_inertia() const
     {
-      return parameters.settling ? per_roll() * parameters.settling->mass() + of_turning_wheels()
-                                 : parameters.roll_inertia;
+      return settling.mass() ? settling.roll_inertia() + of_turning_wheels() : parameters.roll_inertia;
     }
-    /// Of a mass on the contacts: its inertia about the middle between them, per kg.
-    double per_roll() const
-    {
-      return parameters.settling ? parameters.settling->arm * parameters.settling->arm : 0.;
-    }
-    /// Force or moment of the damper of a hub that settles; moves the companion.
-    double settling_force(const double velocity,
-                          double      &companion,
-                          const double scale,
-                          const double time_step) const;
-    /// Force that carries a hub that settles, and its cells, along its way; its companion and the sprung mass
-    /// move along.
-    double carrying_force(const double time_step);
     /// Angular velocity of the axle itself, rad/s.
     Vector3 tilting() const
     {
@@ -339,23 +257,14 @@ namespace tread
     Vector3 gyroscopic_moment() const;
     Vector3 gyroscopic_moment_of(const FlexibleAxle::Side side) const
     {
-      return gyroscopic_moment(inertia_of_wheel(), tilting() + in_space(flexible->tilt_rate(side)));
+      return gyroscopic_moment(inertia_of_wheel(), tilting() + present.vector(flexible->tilt_rate(side)));
     }
     /// Moments on the wheels of a flexible axle that it does not balance, N m. @param on_wheels of the cells
     OfSides unbalanced_on_wheels(const OfSides &on_wheels);
-    /// A tilt of a wheel or its rate as a vector.
-    Vector3 in_space(const FlexibleAxle::Tilt tilt) const
-    {
-      return tilt.x * present.x + tilt.z * present.z;
-    }
     /// About which a wheel on a flexible axle turns, but for terms of second order in its tilt.
     Vector3 tilted_axle(const FlexibleAxle::Side side) const
     {
-      return present.y + cross(in_space(flexible->tilt(side)), present.y);
-    }
-    FlexibleAxle::Tilt in_chord(const Vector3 v) const
-    {
-      return {dot(v, present.x), dot(v, present.z)};
+      return present.y + cross(present.vector(flexible->tilt(side)), present.y);
     }
     /// Inertia of one wheel of a flexible axle about it, kg m^2.
     double inertia_of_wheel() const
@@ -363,18 +272,12 @@ namespace tread
       return 0.5 * parameters.moment_of_inertia;
     }
 
-    Companions companions;
-    /// Null: a level height.
-    std::function<double(double)> curvature_of_way;
-    Frame                         reference, present;
-    double   reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
-    Vector3  reference_first_moment{}; ///< of the rigid rest
-    Guidance guidance      = Guidance::rigid;
-    double   guidance_time = 0., lateral_guidance = 0.; ///< s since guidance began; N
-    std::function<Across(double)> across;
-    GuidanceSprings               springs;
-    double                        released_yaw = 0.;
-    std::optional<FlexibleAxle>   flexible;
+    WheelsetAxes reference, present;
+    double  reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
+    Vector3 reference_first_moment{}; ///< of the rigid rest
+    HubGuidance                 guidance;
+    HubSettling                 settling;
+    std::optional<FlexibleAxle> flexible;
   };
 } // namespace tread
 
