@@ -194,11 +194,11 @@ namespace tread
   }
 
 
-  void ElasticSystem::attach_hub(WheelHub hub, const unsigned int body, const HubFreedom &may)
+  void ElasticSystem::attach_hub(WheelHub given, const unsigned int body, const HubFreedom &may)
   {
-    freedom = may;
-    axle_x  = hub.start()[0];
-    axle_z  = hub.start()[2];
+    hub.freedom = may;
+    hub.x       = given.start()[0];
+    hub.z       = given.start()[2];
     for (const unsigned int i : mesh.boundary_nodes(body, Boundary::support))
       {
         carried[i]     = true;
@@ -208,18 +208,18 @@ namespace tread
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       if (mesh.node_bodies[i] == body && mesh.shared_nodes.is_owned(i))
         {
-          const double rx = mesh.nodes[i][0] - axle_x, rz = mesh.nodes[i][2] - axle_z, m = node_masses[i];
+          const double rx = mesh.nodes[i][0] - hub.x, rz = mesh.nodes[i][2] - hub.z, m = node_masses[i];
           sums[0] += m;
           sums[1] += m * (rx * rx + rz * rz);
           sums[2] += m * rx;
           sums[3] += m * rz;
         }
     dealii::Utilities::MPI::sum(sums, mesh.comm, sums);
-    hub.take_out(sums[0], sums[1], Vector3{sums[2], 0., sums[3], 0.});
-    hub_parameters = hub.parameters;
-    first_moment_x = -sums[2];
-    first_moment_z = -sums[3];
-    has_hub        = true;
+    given.take_out(sums[0], sums[1], Vector3{sums[2], 0., sums[3], 0.});
+    hub.parameters     = given.parameters;
+    hub.first_moment_x = -sums[2];
+    hub.first_moment_z = -sums[3];
+    hub.is_there       = true;
   }
 
 
@@ -274,12 +274,12 @@ namespace tread
       }
 
     const long long n_of_nodes = n_global;
-    if (has_hub)
+    if (hub.is_there)
       {
-        hub_up    = n_global++;
-        hub_along = freedom.moves_along ? n_global++ : none;
-        hub_turn  = freedom.turns ? n_global++ : none;
-        sprung    = freedom.is_suspended && hub_parameters.sprung_mass > 0. ? n_global++ : none;
+        hub.up     = n_global++;
+        hub.along  = hub.freedom.moves_along ? n_global++ : none;
+        hub.turn   = hub.freedom.turns ? n_global++ : none;
+        hub.sprung = hub.freedom.is_suspended && hub.parameters.sprung_mass > 0. ? n_global++ : none;
       }
     if (supports && supports->n_rigid_sleepers() > 0)
       {
@@ -307,13 +307,13 @@ namespace tread
         };
         if (d == 0)
           {
-            add(hub_along, 1.);
-            add(hub_turn, mesh.nodes[node][2] - axle_z);
+            add(hub.along, 1.);
+            add(hub.turn, mesh.nodes[node][2] - hub.z);
           }
         else if (d == 2)
           {
-            add(hub_up, 1.);
-            add(hub_turn, -(mesh.nodes[node][0] - axle_x));
+            add(hub.up, 1.);
+            add(hub.turn, -(mesh.nodes[node][0] - hub.x));
           }
       }
     else if (unknowns[node][d] != none)
@@ -424,13 +424,13 @@ namespace tread
         add(stiffness, link.form, link.stiffness);
         add(damping, link.form, link.damping);
       }
-    if (has_hub && freedom.is_suspended)
+    if (hub.is_there && hub.freedom.is_suspended)
       {
-        LinearForm suspension{{hub_up, 1.}};
-        if (sprung != none)
-          suspension.push_back({sprung, -1.});
-        add(stiffness, suspension, hub_parameters.suspension_stiffness);
-        add(damping, suspension, hub_parameters.suspension_damping);
+        LinearForm suspension{{hub.up, 1.}};
+        if (hub.sprung != none)
+          suspension.push_back({hub.sprung, -1.});
+        add(stiffness, suspension, hub.parameters.suspension_stiffness);
+        add(damping, suspension, hub.parameters.suspension_damping);
       }
   }
 
@@ -456,14 +456,14 @@ namespace tread
       if (row != column)
         check_petsc(MatSetValue(mass, column, row, value, ADD_VALUES));
     };
-    if (has_hub)
+    if (hub.is_there)
       {
-        add(hub_along, hub_along, hub_parameters.mass);
-        add(hub_up, hub_up, hub_parameters.mass);
-        add(hub_turn, hub_turn, hub_parameters.moment_of_inertia);
-        add(hub_along, hub_turn, first_moment_z);
-        add(hub_up, hub_turn, -first_moment_x);
-        add(sprung, sprung, hub_parameters.sprung_mass);
+        add(hub.along, hub.along, hub.parameters.mass);
+        add(hub.up, hub.up, hub.parameters.mass);
+        add(hub.turn, hub.turn, hub.parameters.moment_of_inertia);
+        add(hub.along, hub.turn, hub.first_moment_z);
+        add(hub.up, hub.turn, -hub.first_moment_x);
+        add(hub.sprung, hub.sprung, hub.parameters.sprung_mass);
       }
     for (unsigned int s = 0; first_sleeper != none && s < supports->n_rigid_sleepers(); ++s)
       add(first_sleeper + s, first_sleeper + s, supports->parameters.sleeper_mass);
@@ -574,7 +574,7 @@ namespace tread
     const auto own = [&](const long long k) {
       return k >= begin && k < end ? values[k - begin] : 0.;
     };
-    std::vector<double> rigid{own(hub_along), own(hub_up), own(hub_turn), own(sprung)};
+    std::vector<double> rigid{own(hub.along), own(hub.up), own(hub.turn), own(hub.sprung)};
     for (unsigned int s = 0; first_sleeper != none && s < supports->n_rigid_sleepers(); ++s)
       rigid.push_back(own(first_sleeper + s));
     dealii::Utilities::MPI::sum(rigid, mesh.comm, rigid);
@@ -589,8 +589,8 @@ namespace tread
     mesh.shared_nodes.sum(u.data());
     for (unsigned int i = 0; i < u.size(); ++i)
       if (carried[i])
-        u[i] = Vector3{parts.along + parts.turn * (mesh.nodes[i][2] - axle_z), 0.,
-                       parts.up - parts.turn * (mesh.nodes[i][0] - axle_x), 0.};
+        u[i] = Vector3{parts.along + parts.turn * (mesh.nodes[i][2] - hub.z), 0.,
+                       parts.up - parts.turn * (mesh.nodes[i][0] - hub.x), 0.};
     mesh.distribute_hanging_nodes(u.data());
     return u;
   }
@@ -599,12 +599,12 @@ namespace tread
   std::array<double, 3> ElasticSystem::rigid_inertia(const RigidParts &v) const
   {
     std::array<double, 3> sums{};
-    if (has_hub)
+    if (hub.is_there)
       {
-        sums[0] = hub_parameters.mass * (v.along * v.along + v.up * v.up) +
-                  2. * v.turn * (v.along * first_moment_z - v.up * first_moment_x) +
-                  hub_parameters.moment_of_inertia * v.turn * v.turn;
-        sums[1] = hub_parameters.sprung_mass * v.sprung * v.sprung;
+        sums[0] = hub.parameters.mass * (v.along * v.along + v.up * v.up) +
+                  2. * v.turn * (v.along * hub.first_moment_z - v.up * hub.first_moment_x) +
+                  hub.parameters.moment_of_inertia * v.turn * v.turn;
+        sums[1] = hub.parameters.sprung_mass * v.sprung * v.sprung;
       }
     for (const double velocity : v.sleepers)
       sums[2] += supports->parameters.sleeper_mass * velocity * velocity;

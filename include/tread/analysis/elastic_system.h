@@ -159,14 +159,18 @@ namespace tread
     std::vector<std::array<long long, 3>> unknowns;
     long long                             first_own = 0, n_own = 0, n_global = 0;
 
-    bool               has_hub = false;
-    HubFreedom         freedom;
-    WheelHubParameters hub_parameters;
-    double             axle_x = 0., axle_z = 0., first_moment_x = 0., first_moment_z = 0.;
-    long long          hub_along = none, hub_up = none, hub_turn = none, sprung = none;
-    const Supports    *supports      = nullptr;
-    long long          first_sleeper = none;
-    std::vector<Link>  links;
+    struct Hub
+    {
+      bool               is_there = false;
+      HubFreedom         freedom;
+      WheelHubParameters parameters;
+      double             x = 0., z = 0.;                                      ///< of the axle, m
+      double             first_moment_x = 0., first_moment_z = 0.;            ///< of the rest, kg m
+      long long          along = none, up = none, turn = none, sprung = none; ///< unknowns
+    } hub;
+    const Supports   *supports      = nullptr;
+    long long         first_sleeper = none;
+    std::vector<Link> links;
 
     Mat K = nullptr, M = nullptr, C = nullptr;
   };
