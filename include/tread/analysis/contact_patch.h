@@ -3,7 +3,7 @@
 #define tread_analysis_contact_patch_h
 
 #include <tread/base/archive.h>
-#include <tread/contact/contact.h>
+#include <tread/contact/contact_records.h>
 
 #include <map>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef tread_scene_wheel_stance_h
 #define tread_scene_wheel_stance_h
 
-#include <tread/contact/contact.h>
+#include <tread/contact/contact_records.h>
 #include <tread/mesh/body.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/islands.h>
