@@ -2,6 +2,7 @@
 #include <tread/geometry/profile_names.h>
 #include <tread/geometry/rail_slices.h>
 #include <tread/scene/checks.h>
+#include <tread/scene/fine_cells.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/recorded.h>
 #include <tread/scene/scene.h>
@@ -86,7 +87,7 @@ namespace tread
         return;
       // A flange that climbs, or a roll that was not given, is some millimetres.
       constexpr double       deepest  = 15e-3; // m
-      const WheelOnRail      surfaces = scene.wheel_on_rail();
+      const WheelOnRail     &surfaces = scene.wheel_on_rail();
       const WheelsetPosition position = scene.wheelset.position();
       double                 overlap  = 0.;
       try
@@ -106,7 +107,15 @@ namespace tread
   } // namespace
 
 
-  WheelOnRail Scene::wheel_on_rail() const
+  const WheelOnRail &Scene::wheel_on_rail() const
+  {
+    if (!on_rail)
+      on_rail = std::make_shared<const WheelOnRail>(make_wheel_on_rail());
+    return *on_rail;
+  }
+
+
+  WheelOnRail Scene::make_wheel_on_rail() const
   {
     const auto wheel_profile = [&] {
       try

@@ -140,7 +140,7 @@ namespace tread
     require(scene.static_load() > 0.,
             "'Vehicle/Gravity (m per s2)' must be above 0: nothing loads the contact");
     Progress            progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    const WheelOnRail   surfaces = scene.wheel_on_rail();
+    const WheelOnRail  &surfaces = scene.wheel_on_rail();
     const WayOverSlices way      = way_over_slices(scene, surfaces);
     RunFolder           folder(path, comm);
     folder.write_table("contact_way.csv", way_columns(), touch_rows(scene, surfaces, way));

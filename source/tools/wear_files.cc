@@ -172,7 +172,7 @@ namespace tread
 
     ProfileWear wear_of(const Scene &scene, const std::vector<WearContact> &contacts)
     {
-      const WheelOnRail surfaces = scene.wheel_on_rail();
+      const WheelOnRail &surfaces = scene.wheel_on_rail();
       return ProfileWear(parameters_of(scene), contacts, surfaces.wheel(),
                          surfaces.rail_surface().sections(0.).front().turned(-scene.rail.angle()));
     }

@@ -108,8 +108,9 @@ namespace tread
     {
       return wheelset.is_positioned() || motion.angular_velocity.has_value();
     }
-    /// The wheel with its flange over the rail with its flanks, in the track. @throws InputError
-    WheelOnRail wheel_on_rail() const;
+    /// The wheel with its flange over the rail with its flanks, in the track; read at the first call.
+    /// @throws InputError
+    const WheelOnRail &wheel_on_rail() const;
     /// The wheelset's position in its track with the axle at x, as long as nothing moves it across.
     WheelsetPosition position_at(const double x) const
     {
@@ -325,7 +326,8 @@ namespace tread
     {
       return number == 0 ? 0. : further_wheels.distances[number - 1];
     }
-    void check(const SceneUse use) const;
+    void        check(const SceneUse use) const;
+    WheelOnRail make_wheel_on_rail() const;
     /// Note the files that parameters name, with their contents.
     void note_files();
     /// Where the path and the rail begin and end.
@@ -347,6 +349,7 @@ namespace tread
     ParameterFile                              input;
     std::shared_ptr<const Shapes>              shapes;
     const UprightWheel                         upright{*this};
+    mutable std::shared_ptr<const WheelOnRail> on_rail;         ///< null until it is asked for
     mutable std::shared_ptr<const PlacedWheel> placed;          ///< null until it is asked for
     std::shared_ptr<const WheelsetMotion>      wheelset_motion; ///< of 'Guidance/File'; null: none
     std::vector<BeamRow>                       beam_rows;

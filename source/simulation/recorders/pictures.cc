@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/scene/parts.h>
+#include <tread/scene/recorded.h>
 #include <tread/simulation/recorders/pictures.h>
 
 #include <cmath>
