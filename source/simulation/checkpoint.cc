@@ -28,7 +28,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-33";
+    constexpr const char *layout = "tread-checkpoint-34";
 
     /// A text with its size before it.
     std::string with_size(const std::string &text)

@@ -34,7 +34,7 @@ namespace tread
     virtual reference::HertzEllipse ellipse(const double normal_force) const = 0;
     /// y of its middle, m.
     virtual double patch_y() const = 0;
-    /// Of all wheels that are meshed of one wheelset, in loads of a wheel.
+    /// What rests on the rails under one meshed wheelset, in static loads of a wheel.
     virtual unsigned int n_loads() const = 0;
 
     /// Rail, wheels and solid sleepers, in the order of their numbers. @throws InputError
@@ -86,7 +86,7 @@ namespace tread
     /// Force, normal and slip of a node in the contact axes of its patch; its position stays. @param wheel_x
     /// m
     virtual ContactNodeState in_contact_axes(const ContactNodeState &state, const double wheel_x) const = 0;
-    /// In how many patches a run is measured by itself.
+    /// Patches that a run measures one by one; 0: all contact of a wheel is one patch.
     virtual unsigned int n_separate_patches() const = 0;
 
     /// What moves the wheel across the rail, and what its load's direction is called.
