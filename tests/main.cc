@@ -23,10 +23,11 @@ namespace
     const auto  found = arguments.empty() ? all.end() : all.find(arguments.front());
     if (found == all.end())
       {
-        std::fprintf(stderr, "no test '%s'; there are:\n", arguments.empty() ? "" : arguments[0].c_str());
+        if (!arguments.empty())
+          std::fprintf(stderr, "no test '%s'; there are:\n", arguments[0].c_str());
         for (const auto &[name, test] : all)
-          std::fprintf(stderr, "%s\n", name.c_str());
-        return 1;
+          std::fprintf(arguments.empty() ? stdout : stderr, "%s\n", name.c_str());
+        return arguments.empty() ? 0 : 1;
       }
     arguments.erase(arguments.begin());
     tests::Check check;

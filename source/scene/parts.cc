@@ -204,15 +204,9 @@ namespace tread
     region.reach += strip.path.ahead;
     if (section.half_width == 0. && strip.path.half_width > 0.)
       region.half_width = strip.path.half_width;
-    region.along = [place = strip.place](const dealii::Point<3> &p) {
-      return place(p).along;
-    };
-    region.beside = [place = strip.place](const dealii::Point<3> &p) {
-      return place(p).beside;
-    };
-    region.depth_of = [place = strip.place](const dealii::Point<3> &p) {
-      return place(p).below;
-    };
+    region.along    = strip.along;
+    region.beside   = strip.beside;
+    region.depth_of = strip.below;
     return region;
   }
 

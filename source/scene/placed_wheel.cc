@@ -473,11 +473,18 @@ namespace tread
   {
     const Path path = paths_over(begin, end).front();
     if (body == rail_body)
-      return {path, [this, path](const dealii::Point<3> &p) -> Place {
-                return {p[0], beside(path, p), depth_in_rail(p)};
+      return {path, [](const dealii::Point<3> &p) { return p[0]; },
+              [this, path](const dealii::Point<3> &p) { return beside(path, p); },
+              [this](const dealii::Point<3> &p) {
+                return depth_in_rail(p);
               }};
-    return {path, [this, path, start = scene.path_begin()](const dealii::Point<3> &p) {
-              return place_in_wheel(p, path, start);
+    const auto place = [this, path, start = scene.path_begin()](const dealii::Point<3> &p) {
+      return place_in_wheel(p, path, start);
+    };
+    return {path, [place](const dealii::Point<3> &p) { return place(p).along; },
+            [place](const dealii::Point<3> &p) { return place(p).beside; },
+            [place](const dealii::Point<3> &p) {
+              return place(p).below;
             }};
   }
 

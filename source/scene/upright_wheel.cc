@@ -55,17 +55,23 @@ namespace tread
 
   WheelStance::Strip UprightWheel::strip(const unsigned int body, const double, const double) const
   {
-    const double y = patch_y();
+    const Strip::Measure beside = [y = patch_y()](const dealii::Point<3> &p) {
+      return p[1] - y;
+    };
     if (body == rail_body)
-      return {paths().front(), [this, y](const dealii::Point<3> &p) -> Place {
-                return {p[0], p[1] - y, depth_in_rail(p)};
+      return {paths().front(), [](const dealii::Point<3> &p) { return p[0]; }, beside,
+              [this](const dealii::Point<3> &p) {
+                return depth_in_rail(p);
               }};
+    const double begin = scene.path_begin(), height = scene.axle_height();
     return {paths().front(),
-            [this, y, begin = scene.path_begin(), height = scene.axle_height(),
-             radius = rolling_radius()](const dealii::Point<3> &p) -> Place {
-              const double ahead = p[0] - begin, down = height - p[2], angle = std::atan2(ahead, down);
-              return {begin + radius * angle, p[1] - y,
-                      scene.surfaces().wheel_radius(angle, p[1]) - std::hypot(ahead, down)};
+            [begin, height, radius = rolling_radius()](const dealii::Point<3> &p) {
+              return begin + radius * std::atan2(p[0] - begin, height - p[2]);
+            },
+            beside,
+            [this, begin, height](const dealii::Point<3> &p) {
+              const double ahead = p[0] - begin, down = height - p[2];
+              return scene.surfaces().wheel_radius(std::atan2(ahead, down), p[1]) - std::hypot(ahead, down);
             }};
   }
 

@@ -32,12 +32,12 @@ namespace tread
 
   double HubGuidance::advance(HubMotion       &motion,
                               const HubMotion &before,
-                              const Load      &load,
+                              const FreeHub   &hub,
                               const double     time_step)
   {
     if (kind == Guidance::rigid)
       {
-        lateral = -load.lateral;
+        lateral = -hub.lateral;
         return 0.;
       }
     double yaw_support = 0.; // moment of guidance
@@ -46,10 +46,10 @@ namespace tread
         const Across next = across(time + time_step);
         motion.velocity_y = (next.y - motion.y) / time_step;
         motion.yaw_rate   = (next.yaw - motion.yaw) / time_step;
-        if (!load.rolls)
+        if (!hub.rolls)
           motion.roll_rate = (next.roll - motion.roll) / time_step;
-        lateral     = load.mass * (motion.velocity_y - before.velocity_y) / time_step - load.lateral;
-        yaw_support = load.yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - load.yaw_moment;
+        lateral     = hub.mass * (motion.velocity_y - before.velocity_y) / time_step - hub.lateral;
+        yaw_support = hub.yaw_inertia * (motion.yaw_rate - before.yaw_rate) / time_step - hub.yaw_moment;
         // Free rolling may lie beside what theory takes for it.
         if (next.angular_velocity)
           motion.angular_velocity += *next.angular_velocity - *across(time).angular_velocity;
@@ -57,22 +57,22 @@ namespace tread
     else
       {
         if (!springs.force)
-          springs.force = -load.lateral;
+          springs.force = -hub.lateral;
         if (!springs.moment)
-          springs.moment = -load.yaw_moment;
+          springs.moment = -hub.yaw_moment;
         lateral     = *springs.force - springs.stiffness * motion.y - springs.damping * motion.velocity_y;
         yaw_support = *springs.moment - springs.yaw_stiffness * (motion.yaw - released_yaw) -
                       springs.yaw_damping * motion.yaw_rate;
-        motion.velocity_y += time_step * (load.lateral + lateral) / load.mass;
-        if (load.yaw_inertia > 0.)
-          motion.yaw_rate += time_step * (load.yaw_moment + yaw_support) / load.yaw_inertia;
+        motion.velocity_y += time_step * (hub.lateral + lateral) / hub.mass;
+        if (hub.yaw_inertia > 0.)
+          motion.yaw_rate += time_step * (hub.yaw_moment + yaw_support) / hub.yaw_inertia;
       }
     time += time_step;
     motion.y += time_step * motion.velocity_y;
     motion.yaw += time_step * motion.yaw_rate;
-    if (!load.rolls)
+    if (!hub.rolls)
       motion.roll += time_step * motion.roll_rate;
-    const double roll_support = load.rolls ? 0. : load.roll_moment; // about -x, against that of the cells
+    const double roll_support = hub.rolls ? 0. : hub.roll_moment; // about -x, against that of the cells
     return 0.5 * time_step *
            (lateral * (before.velocity_y + motion.velocity_y) +
             yaw_support * (before.yaw_rate + motion.yaw_rate) +

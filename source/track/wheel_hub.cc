@@ -66,7 +66,7 @@ namespace tread
   }
 
 
-  Vector3 WheelHub::turned(const Vector3 v, const Turn turn) const
+  Vector3 WheelHub::turned(const Vector3 v, const HubTurn turn) const
   {
     const double x = dot(reference.x, v), z = dot(reference.z, v);
     return (turn.cosine * x + turn.sine * z) * present.x + dot(reference.y, v) * present.y +
@@ -74,18 +74,18 @@ namespace tread
   }
 
 
-  std::array<Turn, 2> WheelHub::turns() const
+  std::array<HubTurn, 2> WheelHub::turns() const
   {
     if (!flexible)
-      return {Turn(motion.angle), Turn(motion.angle)};
-    return {Turn(motion.angle + flexible->twist(FlexibleAxle::own)),
-            Turn(motion.angle + flexible->twist(FlexibleAxle::other))};
+      return {HubTurn(motion.angle), HubTurn(motion.angle)};
+    return {HubTurn(motion.angle + flexible->twist(FlexibleAxle::own)),
+            HubTurn(motion.angle + flexible->twist(FlexibleAxle::other))};
   }
 
 
   double WheelHub::static_force() const
   {
-    const double moment_z = turned(reference_first_moment, Turn(motion.angle))[2];
+    const double moment_z = turned(reference_first_moment, HubTurn(motion.angle))[2];
     return -(parameters.mass + parameters.sprung_mass) * parameters.gravity +
            motion.angular_velocity * motion.angular_velocity * moment_z;
   }
@@ -147,7 +147,7 @@ namespace tread
     const double acceleration   = vertical_force / mass_up();
 
     motion.velocity_z += time_step * acceleration;
-    const Vector3 moments = turned(reference_first_moment, Turn(motion.angle)); // of the rest
+    const Vector3 moments = turned(reference_first_moment, HubTurn(motion.angle)); // of the rest
     // What it moves by when the axle turns; the component along z is its lever about the axle.
     const Vector3 by_turning = cross(axle(), moments);
     // The rest that balances the cells lags behind when the axle moves up: a moment.
@@ -201,7 +201,7 @@ namespace tread
   }
 
 
-  Vector3 WheelHub::position_of(const Vector3 arm, const std::array<Turn, 2> &turns) const
+  Vector3 WheelHub::position_of(const Vector3 arm, const std::array<HubTurn, 2> &turns) const
   {
     if (!flexible)
       return middle() + turned(arm, turns[FlexibleAxle::own]);
@@ -234,7 +234,7 @@ namespace tread
   double WheelHub::kinetic_energy(const double time_back) const
   {
     const Vector3 moments =
-      turned(reference_first_moment, Turn(motion.angle - time_back * motion.angular_velocity));
+      turned(reference_first_moment, HubTurn(motion.angle - time_back * motion.angular_velocity));
     const double in_plane = motion.velocity_x * motion.velocity_x + motion.velocity_y * motion.velocity_y;
     return 0.5 * (parameters.mass * in_plane + mass_up() * motion.velocity_z * motion.velocity_z) +
            motion.angular_velocity * dot(velocity(), cross(axle(), moments)) +

@@ -30,7 +30,8 @@ namespace tread
 
     /// Rolling radius where the wheel touches; of both wheels of a wheelset the nominal one, m.
     virtual double rolling_radius() const = 0;
-    /// The patch, of several the main one, as Hertz's ellipse. @param normal_force N, > 0
+    /// The patch, of several the main one, as Hertz's ellipse. @param normal_force N, > 0; of a wheelset in a
+    /// position the vertical one
     virtual reference::HertzEllipse ellipse(const double normal_force) const = 0;
     /// y of its middle, m.
     virtual double patch_y() const = 0;
@@ -64,12 +65,15 @@ namespace tread
       double              ahead;      ///< how far from the axle it is at most, m
     };
     virtual std::vector<Path> paths() const = 0;
-    /// The path that carries most over a stretch of the rail (m), and where places of a body are beside it;
-    /// `along` is where they meet the rail. @pre a path holds the stretch
+    /// The path that carries most over a stretch of the rail (m), and where places of a body are beside it,
+    /// each measure by itself: the depth below a rail of slices costs a section. `along` is where they meet
+    /// the rail.
+    /// @pre a path holds the stretch
     struct Strip
     {
-      Path                                           path;
-      std::function<Place(const dealii::Point<3> &)> place;
+      using Measure = std::function<double(const dealii::Point<3> &)>;
+      Path    path;
+      Measure along, beside, below;
     };
     virtual Strip strip(const unsigned int body, const double begin, const double end) const = 0;
     /// Whether a place of the rail's surface lies within half a cell on the line on which the wheel rolls.

@@ -58,8 +58,8 @@ namespace tread
     /// follows from the forces
     void begin(HubMotion &motion, const double time_step, const bool rolls) const;
 
-    /// What acts on a hub but for its guidance, and what moves.
-    struct Load
+    /// A hub without its guidance: what acts on it, and what of it moves.
+    struct FreeHub
     {
       double lateral;           ///< N
       double yaw_moment;        ///< N m
@@ -69,7 +69,7 @@ namespace tread
     };
     /// Change the motion across the track, and angular_velocity where it is prescribed. @param before the
     /// motion before the step @returns work, J
-    double advance(HubMotion &motion, const HubMotion &before, const Load &load, const double time_step);
+    double advance(HubMotion &motion, const HubMotion &before, const FreeHub &hub, const double time_step);
 
     /// Mean lateral force in the last step, on the hub, N.
     double lateral_force() const

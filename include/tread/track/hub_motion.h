@@ -42,9 +42,9 @@ namespace tread
   };
 
   /// Cosine and sine of the angle by which a wheel has turned.
-  struct Turn
+  struct HubTurn
   {
-    explicit Turn(const double angle)
+    explicit HubTurn(const double angle)
       : cosine(std::cos(angle))
       , sine(std::sin(angle))
     {

@@ -35,7 +35,8 @@ namespace tread
     double roll_inertia = 0.; ///< likewise, about x, where both wheels carry it; 0: roll is prescribed
     /// Between both wheels, which then are alike; none: rigid.
     std::optional<FlexibleAxleParameters> axle{};
-    std::optional<SettlingOfHub>          settling{}; ///< none: it has its own inertia
+    /// As it begins, without the masses that it is told; none: it has its own inertia.
+    std::optional<SettlingOfHub> settling{};
   };
 
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
@@ -93,7 +94,7 @@ namespace tread
     {
       return !guidance.is_rigid() || rolls();
     }
-    /// Turn the axle about x, rad.
+    /// HubTurn the axle about x, rad.
     void roll_by(const double angle);
 
     /// Move across the track on springs from now on.
@@ -178,14 +179,14 @@ namespace tread
     }
 
     /// Present turns of both wheels, for a loop over points; the first one's is that of a wheel alone.
-    std::array<Turn, 2> turns() const;
+    std::array<HubTurn, 2> turns() const;
 
     /// Position of a point that is fixed to the hub, from its reference position relative to the middle.
     Vector3 position_of(const Vector3 reference) const
     {
       return position_of(reference, turns());
     }
-    Vector3 position_of(const Vector3 reference, const std::array<Turn, 2> &turns) const;
+    Vector3 position_of(const Vector3 reference, const std::array<HubTurn, 2> &turns) const;
 
     /// Velocity of a point of the hub that is at x at present.
     Vector3 velocity_at(const Vector3 x) const;
@@ -222,7 +223,7 @@ namespace tread
 
   private:
     /// A vector of the reference configuration turned about the axle, and with it.
-    Vector3 turned(const Vector3 reference, const Turn turn) const;
+    Vector3 turned(const Vector3 reference, const HubTurn turn) const;
 
     /// Change the motion across the track, its roll, and angular_velocity where it is prescribed. @param
     /// lateral, moment of all but guidance (N, N m). @returns work of guidance and of the roll's damper, J
