@@ -78,10 +78,8 @@ namespace tread
   PlacedWheel::PlacedWheel(const Scene &scene)
     : PlacedWheel(scene, scene.position_at(scene.path_begin()), wheel_rolling(scene, scene.path_begin()))
   {
-    if (!scene.rail.is_sliced())
-      return;
-    slices       = way_over_slices(scene, surfaces);
-    rise_of_rail = scene.motion.speed * slices.slope(scene.path_begin());
+    if (scene.rail.is_sliced())
+      slices = way_over_slices(scene, surfaces);
   }
 
 
@@ -89,11 +87,6 @@ namespace tread
     : surfaces(scene.wheel_on_rail())
     , scene(scene)
     , sides(solve(scene, surfaces, position, rolling))
-    , load(scene.static_load())
-    , way_begin(scene.path_begin())
-    , way_end(scene.path_end())
-    , rise_of_rail(0.)
-    , slices_place(scene.rail.slices_place)
     , contact(together(sides))
   {
   }
@@ -171,7 +164,8 @@ namespace tread
   PlacedWheel::Rise PlacedWheel::rise() const
   {
     // On slices the way holds what guidance by a file does, too.
-    const double own = slices.pieces.empty() ? main_patch().rise : rise_of_rail;
+    const double own =
+      slices.pieces.empty() ? main_patch().rise : scene.motion.speed * slices.slope(scene.path_begin());
     if (sides.size() == 1)
       return {own, 0.};
     const double other = most_loaded(sides.back().contact.patches).rise;
@@ -313,7 +307,7 @@ namespace tread
   {
     // By Hertz all lengths grow like the cube root of the force.
     const reference::PlanarResult &s     = main_patch().solution;
-    const double                   scale = std::cbrt(vertical_force / load);
+    const double                   scale = std::cbrt(vertical_force / scene.static_load());
     reference::HertzEllipse        e;
     e.semi_axis_x   = scale * 0.5 * (s.x_end - s.x_begin);
     e.semi_axis_y   = scale * 0.5 * (s.y_end - s.y_begin);
@@ -428,7 +422,7 @@ namespace tread
                                                   });
     std::shared_ptr<const std::vector<ProfileCurve>> &sections = sections_at[p[0]];
     if (!sections)
-      sections = surfaces.rail_sections(slices_place + p[0]);
+      sections = surfaces.rail_sections(scene.rail.slices_place + p[0]);
     const auto   top   = highest_over(*sections, y);
     const double below = (top ? top->z : nearest_end(*sections, y)) - p[2];
     return {p[0], beside(piece, p), std::cos(piece.inclination()) * below};
@@ -498,7 +492,8 @@ namespace tread
     if (slices.pieces.empty())
       {
         const double ahead = main_patch().region.reference[0];
-        return {{nullptr, "", way_begin + ahead, way_end + ahead, half_width(main_patch()), std::abs(ahead)}};
+        return {{nullptr, "", scene.path_begin() + ahead, scene.path_end() + ahead, half_width(main_patch()),
+                 std::abs(ahead)}};
       }
     for (const TouchedPiece &piece : slices.pieces)
       {

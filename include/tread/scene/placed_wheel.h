@@ -166,10 +166,6 @@ namespace tread
 
     const Scene      &scene;
     std::vector<Side> sides;
-    double            load;               ///< on a wheel, N
-    double            way_begin, way_end; ///< x of the axle, m
-    double            rise_of_rail;       ///< of the wheelset with it, at the start, m/s
-    double            slices_place;       ///< along them at x = 0, m
     /// Of the slices, by x.
     mutable std::map<double, std::shared_ptr<const std::vector<ProfileCurve>>> sections_at;
     WayOverSlices                                                              slices;
