@@ -6,7 +6,7 @@ With --check the page is only compared; the exit code is 1 if it is not current.
 """
 
 from tread.commands import run_command
-from tread.schema import listing
+from tread.schema import allowed, listing, of_program, parameters
 from tread.tables import page_command
 
 HEAD = """# Parameters
@@ -25,16 +25,19 @@ This page is written by `contrib/parameters-page.py`.
 """
 
 
-def page(found):
-    """@param found as of schema.listing()"""
+def page(found, known):
+    """@param found as of schema.listing(); @param known as of schema.parameters()"""
     text = HEAD
-    for section, parameters in found:
-        text += f"\n## {section}\n\n| parameter | default | meaning |\n|---|---|---|\n"
-        for parameter in parameters:
-            name, default, meaning = (part.replace("|", "\\|") for part in parameter)
-            text += f"| {name} | {f'`{default}`' if default else ''} | {meaning} |\n"
+    for section, entries in found:
+        text += f"\n## {section}\n\n| parameter | default | allowed | meaning |\n|---|---|---|---|\n"
+        for entry in entries:
+            name, default, meaning = (part.replace("|", "\\|") for part in entry)
+            schema = known[f"{section}/{entry[0]}"]
+            # What a choice may be is said by its meaning.
+            may_be = "" if "enum" in schema or (schema.get("type") == "string" and "pattern" not in schema) else allowed(schema)
+            text += f"| {name} | {f'`{default}`' if default else ''} | {may_be} | {meaning} |\n"
     return text
 
 
 if __name__ == "__main__":
-    run_command(lambda: page_command(__doc__, "parameters.md", lambda program: page(listing(program))))
+    run_command(lambda: page_command(__doc__, "parameters.md", lambda program: page(listing(program), parameters(of_program(program)))))

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """contrib/python/tread/parameters.schema.json: a JSON schema of all parameters of a scene, for editors and check-scene.py.
 
-The program is asked for each parameter what it allows; that takes some minutes. With --check the file is only compared; the exit code is
-1 if it is not current.
+The program writes it (tread parameters --schema). With --check the file is only compared; the exit code is 1 if it is not current.
 """
 
 import json
@@ -11,7 +10,7 @@ import sys
 
 from tread.commands import command_parser, run_command
 from tread.runs import PROGRAM
-from tread.schema import PATH, make_schema, parameters, shipped
+from tread.schema import PATH, of_program, parameters, shipped
 
 
 def main():
@@ -20,7 +19,7 @@ def main():
     parser.add_argument("--output", default=PATH, help="file to write instead")
     parser.add_argument("--check", action="store_true", help="write nothing")
     arguments = parser.parse_args()
-    current = make_schema(arguments.program)
+    current = of_program(arguments.program)
     if not arguments.check:
         with open(arguments.output, "w", encoding="utf-8") as stream:
             json.dump(current, stream, indent=1, ensure_ascii=False)

@@ -179,7 +179,9 @@ namespace tread
         command(Command::parameters, "parameters", "all parameters with units, ranges and meaning");
       parameters->add_option("SCENE.prm", line.scene, "parameter file whose values they have");
       add_settings(*parameters, line);
-      parameters->add_flag("--json", line.json, "as JSON");
+      CLI::Option *const json = parameters->add_flag("--json", line.json, "as JSON");
+      parameters->add_flag("--schema", line.schema, "as JSON schema: what each of them may be")
+        ->excludes(json);
       command(Command::columns, "columns",
               "columns of all tables and keys of summary.json with units and meaning, as JSON");
       app.require_subcommand(0, 1);

@@ -42,6 +42,7 @@ namespace tread
     SleeperStressRequest     sleeper;
     ContactPointsRequest     points;
     bool                     json      = false; ///< parameters
+    bool                     schema    = false; ///< likewise
     bool                     overwrite = false, resume = false, dry_run = false, quiet = false;
   };
 

@@ -41,7 +41,9 @@ namespace
       {
         tread::Scene scene;
         scene.read(line.scene, line.settings, tread::SceneUse::roll);
-        if (speaks && line.json)
+        if (speaks && line.schema)
+          scene.parameters().print_schema(std::cout);
+        else if (speaks && line.json)
           scene.parameters().print_json(std::cout);
         else if (speaks)
           scene.parameters().print(std::cout, true);

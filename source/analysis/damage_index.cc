@@ -21,7 +21,7 @@ namespace tread
     template <typename Index>
     DamageIndexEntry index_without_parameters()
     {
-      return {Index::key, Index::about, [](dealii::ParameterHandler &) {},
+      return {Index::key, Index::about, [](Section &) {},
               [](const dealii::ParameterHandler &) -> std::shared_ptr<const DamageIndex> {
                 return std::make_shared<Index>();
               }};
@@ -53,7 +53,7 @@ namespace tread
   }
 
 
-  void declare_damage_indices(dealii::ParameterHandler &section)
+  void declare_damage_indices(Section &section)
   {
     for (const DamageIndexEntry &index : damage_indices())
       index.declare(section);

@@ -16,7 +16,7 @@ namespace tread
 
     WearLawEntry no_wear()
     {
-      return {"none", "surfaces lose nothing", [](dealii::ParameterHandler &) {},
+      return {"none", "surfaces lose nothing", [](Section &) {},
               [](const dealii::ParameterHandler &) {
                 return std::shared_ptr<const WearLaw>();
               }};
@@ -26,12 +26,13 @@ namespace tread
 
   const std::vector<WearLawEntry> &wear_laws()
   {
-    static const std::vector<WearLawEntry> laws{no_wear(), entry<ArchardWear>(), entry<ArchardMapWear>(), entry<WorkWear>()};
+    static const std::vector<WearLawEntry> laws{no_wear(), entry<ArchardWear>(), entry<ArchardMapWear>(),
+                                                entry<WorkWear>()};
     return laws;
   }
 
 
-  void declare_wear_laws(dealii::ParameterHandler &section)
+  void declare_wear_laws(Section &section)
   {
     for (const WearLawEntry &law : wear_laws())
       law.declare(section);

@@ -67,6 +67,17 @@ namespace tread
   }
 
 
+  void Archive::kind(const std::type_info &type)
+  {
+    const std::string       name = type.name();
+    const std::vector<char> wanted(name.begin(), name.end());
+    std::vector<char>       found = wanted;
+    same(found);
+    if (found != wanted)
+      throw OtherLayout();
+  }
+
+
   bool Archive::on_all_ranks(const bool holds) const
   {
     return !dealii::Utilities::MPI::logical_or(!holds, comm);

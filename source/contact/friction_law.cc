@@ -94,7 +94,7 @@ namespace tread
   }
 
 
-  void declare_friction_laws(dealii::ParameterHandler &section)
+  void declare_friction_laws(Section &section)
   {
     for (const FrictionLawEntry &law : friction_laws())
       law.declare(section);

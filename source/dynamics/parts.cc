@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <typeinfo>
 #include <utility>
 
 namespace tread
@@ -61,7 +62,11 @@ namespace tread
 
   void Parts::serialize(Archive &archive)
   {
-    for (const auto &part : all)
-      part->serialize(archive);
+    for (const auto &added : all)
+      {
+        Part &part = *added;
+        archive.kind(typeid(part));
+        part.serialize(archive);
+      }
   }
 } // namespace tread

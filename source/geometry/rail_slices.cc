@@ -15,7 +15,7 @@ namespace tread
     using Point = dealii::Point<2>;
 
     /// Distance of the samples across, of which each bend of a section needs some, m.
-    constexpr double spacing = 0.25e-3;
+    constexpr double spacing_across = 0.25e-3;
 
     bool is_cut(const RailSlice &slice)
     {
@@ -165,7 +165,7 @@ namespace tread
     double longest = 0.;
     for (std::size_t i = first; i <= last; ++i)
       longest = std::max(longest, ends(i).second - ends(i).first);
-    const std::size_t   n = std::max<std::size_t>(4, std::ceil(longest / spacing));
+    const std::size_t   n = std::max<std::size_t>(4, std::ceil(longest / spacing_across));
     Strip               strip{first, last, {}, {}};
     std::vector<double> x;
     for (std::size_t i = first; i <= last; ++i)

@@ -110,7 +110,7 @@ namespace tread
     }
 
     /// A table with a row for each point.
-    RailSlices read_table(const std::string &file)
+    RailSlices read_table_of_slices(const std::string &file)
     {
       const CsvTable table(
         file,
@@ -173,7 +173,7 @@ namespace tread
       return rail;
     }
 
-    RailSlices read_contact(const std::string &file)
+    RailSlices read_slices_of_contact(const std::string &file)
     {
       const SliceList list = read_slice_list(file);
       require(!list.approximates,
@@ -227,14 +227,15 @@ namespace tread
     }
 
     /// The formats, each with one line.
-    struct Format
+    struct SlicesFormat
     {
       std::string                                    ending;
       std::function<RailSlices(const std::string &)> read;
     };
-    const std::vector<Format> &formats()
+    const std::vector<SlicesFormat> &formats_of_slices()
     {
-      static const std::vector<Format> list{{".slcs", read_contact}, {".csv", read_table}};
+      static const std::vector<SlicesFormat> list{{".slcs", read_slices_of_contact},
+                                                  {".csv", read_table_of_slices}};
       return list;
     }
   } // namespace
@@ -243,7 +244,7 @@ namespace tread
   RailSlices read_rail_slices(const std::string &file)
   {
     std::string known;
-    for (const Format &format : formats())
+    for (const SlicesFormat &format : formats_of_slices())
       {
         if (file.ends_with(format.ending))
           {

@@ -289,7 +289,7 @@ namespace tread
   std::vector<std::string> implausible_values(const Scene &scene, const bool stands_in_track)
   {
     std::vector<std::string> list;
-    for (const ParameterFile::Parameter &parameter : scene.parameters().changed_values())
+    for (const ParameterFile::Setting &parameter : scene.parameters().changed_values())
       for (const Usual &usual : usual_values)
         // Wheels of test rigs are as light as they are small.
         if (parameter.path == usual.path &&

@@ -97,7 +97,7 @@ namespace tread
   }
 
 
-  std::vector<ParameterFile::Parameter> Scene::parameters_in(const std::string &file)
+  std::vector<ParameterFile::Setting> Scene::parameters_in(const std::string &file)
   {
     Scene scene;
     scene.input.read(file, {});

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/base/input_error.h>
-#include <tread/base/quiet_boost.h>
 #include <tread/geometry/profile_names.h>
 #include <tread/scene/parameter_file.h>
 
-#include <boost/property_tree/json_parser.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -17,7 +15,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <regex>
 #include <sstream>
 
 namespace tread
@@ -49,26 +46,6 @@ namespace tread
             }
         }
       return row.back();
-    }
-
-    /// A text with deal.II's patterns in it, for people: "[Selection a|b ]" is "a or b", "[Integer range
-    /// 1...6 (inclusive)]" is "1 to 6".
-    std::string readable(std::string text)
-    {
-      std::smatch match;
-      while (std::regex_search(text, match, std::regex(R"(\[Selection ([^\]]*?) ?\])")))
-        text = match.prefix().str() + std::regex_replace(match[1].str(), std::regex(R"(\|)"), " or ") +
-               match.suffix().str();
-      text = std::regex_replace(
-        text, std::regex(R"(\[List of <(\[[^\]]*\])> of length \d+\.\.\.(\d+) \(inclusive\)\])"),
-        "up to $2 numbers from $1, separated by commas");
-      text = std::regex_replace(
-        text, std::regex(R"(\[(Double|Integer range) (\S*?)\.\.\.(\S*) \(inclusive\)\])"), "$2 to $3");
-      text = std::regex_replace(text, std::regex(R"(\[Bool\])"), "true or false");
-      text =
-        std::regex_replace(text, std::regex("(a number from )?-MAX_DOUBLE to MAX_DOUBLE"), "a finite number");
-      text = std::regex_replace(text, std::regex("-MAX_DOUBLE to "), "at most ");
-      return std::regex_replace(text, std::regex(" to MAX_(DOUBLE|INT)"), " or more");
     }
 
     /// As the files of a run must be, of which titles and names of files become part.
@@ -160,107 +137,52 @@ namespace tread
       return dealii::Utilities::trim(line.substr(word.size()));
     }
 
-    struct Entry
+    std::string without_unit(const std::string &path)
     {
-      std::string path, section, name, value, normal, pattern;
-    };
-
-    /// All declared entries, by walking the handler's own description.
-    void list_entries(const boost::property_tree::ptree &tree,
-                      const std::string                 &section,
-                      std::vector<Entry>                &entries)
-    {
-      for (const auto &[mangled, child] : tree)
-        {
-          std::string name;
-          for (std::size_t i = 0; i < mangled.size(); ++i) // deal.II writes special characters as _hex
-            if (mangled[i] == '_' && i + 2 < mangled.size())
-              {
-                name += static_cast<char>(std::stoi(mangled.substr(i + 1, 2), nullptr, 16));
-                i += 2;
-              }
-            else
-              name += mangled[i];
-          if (child.get_optional<std::string>("value"))
-            entries.push_back({section.empty() ? name : section + "/" + name, section, name,
-                               child.get<std::string>("value"), child.get<std::string>("default_value", ""),
-                               child.get<std::string>("pattern_description", "")});
-          else if (!child.empty())
-            list_entries(child, section.empty() ? name : section + "/" + name, entries);
-        }
+      return path.substr(0, path.find(" ("));
     }
 
-    std::vector<Entry> all_entries(const dealii::ParameterHandler &handler)
+    std::string did_you_mean(const std::vector<Parameter> &parameters, const std::string &path)
     {
-      std::ostringstream json;
-      handler.print_parameters(json, dealii::ParameterHandler::JSON |
-                                       dealii::ParameterHandler::KeepDeclarationOrder);
-      boost::property_tree::ptree tree;
-      std::istringstream          in(json.str());
-      boost::property_tree::read_json(in, tree);
-      std::vector<Entry> entries;
-      list_entries(tree, "", entries);
-      return entries;
-    }
-
-    std::string did_you_mean(const std::vector<Entry> &entries, const std::string &path)
-    {
-      const auto name_of = [](const std::string &p) {
-        return p.substr(p.rfind('/', p.find('(')) + 1); // a unit may have one, too
-      };
-      const auto without_unit = [](const std::string &p) {
-        return p.substr(0, p.find(" ("));
-      };
-      std::string best;
-      std::size_t least = std::numeric_limits<std::size_t>::max();
-      for (const Entry &entry : entries)
+      const std::string name = path.substr(path.rfind('/', path.find('(')) + 1); // a unit may have one, too
+      std::string       best;
+      std::size_t       least = std::numeric_limits<std::size_t>::max();
+      for (const Parameter &parameter : parameters)
         {
           // The right name in another section is the likeliest slip.
-          const std::size_t distance = std::min(
-            {edit_distance(path, entry.path), edit_distance(without_unit(path), without_unit(entry.path)) + 1,
-             edit_distance(name_of(path), entry.name) + 1});
+          const std::size_t distance =
+            std::min({edit_distance(path, parameter.path()),
+                      edit_distance(without_unit(path), without_unit(parameter.path())) + 1,
+                      edit_distance(name, parameter.name) + 1});
           if (distance < least)
             {
               least = distance;
-              best  = entry.path;
+              best  = parameter.path();
             }
         }
       return "did you mean '" + best + "'? (tread parameters lists all)";
     }
 
-    std::string nearest_section(const std::vector<Entry> &entries, const std::string &name)
+    std::string nearest_section(const std::vector<Parameter> &parameters, const std::string &name)
     {
-      return std::min_element(entries.begin(), entries.end(),
-                              [&](const Entry &a, const Entry &b) {
+      return std::min_element(parameters.begin(), parameters.end(),
+                              [&](const Parameter &a, const Parameter &b) {
                                 return edit_distance(name, a.section) < edit_distance(name, b.section);
                               })
         ->section;
     }
 
-    /// What else to say about a value that is none of the allowed ones.
-    std::string advice(const Entry &entry, const std::string &value)
+    /// @param place where it is set, for the beginning of a message @throws InputError
+    void set_value(ParameterTable    &table,
+                   const Parameter   &parameter,
+                   const std::string &value,
+                   const std::string &place)
     {
-      const std::string text = entry.path == "Rail/Profile" ? advice_on_rail(value) : "";
-      return text.empty() ? "" : ". " + text;
-    }
-
-    void set_entry(dealii::ParameterHandler &handler,
-                   const Entry              &entry,
-                   const std::string        &value,
-                   const std::string        &place)
-    {
-      handler.enter_subsection(entry.section);
-      try
-        {
-          handler.set(entry.name, value);
-        }
-      catch (const dealii::ExceptionBase &)
-        {
-          handler.leave_subsection();
-          throw InputError(place + "'" + entry.path + "' cannot be '" + shortened(value) +
-                           "'; allowed: " + readable(entry.pattern) + advice(entry, value));
-        }
-      handler.leave_subsection();
+      // What else to say about a value that is none of the allowed ones.
+      const std::string advice = parameter.path() == "Rail/Profile" ? advice_on_rail(value) : "";
+      require(table.set(parameter, value),
+              place + "'" + parameter.path() + "' cannot be '" + shortened(value) +
+                "'; allowed: " + parameter.allowed->in_words() + (advice.empty() ? "" : ". " + advice));
     }
 
     /// Entries of studies, which have no section around them.
@@ -280,10 +202,10 @@ namespace tread
     };
 
     /// @throws InputError about a line that is none of a parameter file. @param open the subsection around it
-    [[noreturn]] void refuse_line(const std::string        &file,
-                                  const Line               &line,
-                                  const Open               &open,
-                                  const std::vector<Entry> &entries)
+    [[noreturn]] void refuse_line(const std::string    &file,
+                                  const Line           &line,
+                                  const Open           &open,
+                                  const ParameterTable &table)
     {
       const std::string where  = place(file, line.number);
       const std::size_t equals = line.text.find('=');
@@ -291,15 +213,13 @@ namespace tread
         {
           const std::string name = without_blanks(line.text.substr(0, equals)),
                             path = (open.line > 0 ? open.name + "/" : "") + name;
-          const bool known =
-            std::any_of(entries.begin(), entries.end(), [&](const Entry &e) { return e.path == path; });
-          throw InputError(
-            where + "'" + shortened(line.text) + "' must begin with 'set'" +
-            (known ? ""
-                   : "; no parameter '" + shortened(path) + "', " + did_you_mean(entries, shortened(path))));
+          throw InputError(where + "'" + shortened(line.text) + "' must begin with 'set'" +
+                           (table.find(path) ? ""
+                                             : "; no parameter '" + shortened(path) + "', " +
+                                                 did_you_mean(table.parameters(), shortened(path))));
         }
-      for (const Entry &entry : entries)
-        if (entry.section == line.text)
+      for (const Parameter &parameter : table.parameters())
+        if (parameter.section == line.text)
           throw InputError(where + "'" + line.text + "' must begin with 'subsection'");
       throw InputError(
         where + "cannot read '" + shortened(line.text) +
@@ -330,8 +250,8 @@ namespace tread
           require(!name->empty(), place(file, line.number) + "'include' names no file");
           parse((std::filesystem::path(file).parent_path() / *name).string(), depth + 1);
         }
-    const std::vector<Entry> entries = all_entries(handler);
-    const std::string of_study       = "'" + file + "' is a study, no scene: contrib/study.py makes its runs";
+    const std::vector<Parameter> &parameters = declared.parameters();
+    const std::string of_study = "'" + file + "' is a study, no scene: contrib/study.py makes its runs";
     Open              open{"", 0};
     std::map<std::string, unsigned int>
       lines_of_parameters; // that this file sets; it may set again what one that it includes does
@@ -347,10 +267,10 @@ namespace tread
             require(open.line == 0, where + "'subsection " + shortened(section) +
                                       "' stands within 'subsection " + open.name + "' of line " +
                                       std::to_string(open.line) + ", which has no 'end'");
-            if (std::none_of(entries.begin(), entries.end(),
-                             [&](const Entry &e) { return e.section == section; }))
+            if (std::none_of(parameters.begin(), parameters.end(),
+                             [&](const Parameter &parameter) { return parameter.section == section; }))
               throw InputError(where + "no section '" + shortened(section) + "'; did you mean '" +
-                               nearest_section(entries, shortened(section)) + "'?");
+                               nearest_section(parameters, shortened(section)) + "'?");
             open = {section, line.number};
           }
         else if (const auto more = behind("end", line.text); more && more->empty())
@@ -363,24 +283,23 @@ namespace tread
             const std::size_t equals = setting->find('=');
             const std::string name   = without_blanks(setting->substr(0, equals));
             require(!(open.line == 0 && is_of_study(name)), of_study);
-            const std::string path = (open.line > 0 ? open.name + "/" : "") + name;
-            const auto        entry =
-              std::find_if(entries.begin(), entries.end(), [&](const Entry &e) { return e.path == path; });
-            if (entry == entries.end())
+            const std::string      path      = (open.line > 0 ? open.name + "/" : "") + name;
+            const Parameter *const parameter = declared.find(path);
+            if (!parameter)
               throw InputError(where + "no parameter '" + shortened(path) + "'; " +
-                               did_you_mean(entries, shortened(path)));
+                               did_you_mean(parameters, shortened(path)));
             require(open.line > 0, where + "'" + path +
-                                     "' stands outside of its section: write 'subsection " + entry->section +
-                                     "', 'set " + entry->name + " = ...' and 'end'");
+                                     "' stands outside of its section: write 'subsection " +
+                                     parameter->section + "', 'set " + parameter->name + " = ...' and 'end'");
             require(equals != setting->npos, where + "'" + path + "' has no value: '=' is missing");
             const auto [first, is_first] = lines_of_parameters.emplace(path, line.number);
             require(is_first, where + "'" + path + "' is set in line " + std::to_string(first->second) +
                                 " already: leave one of the two lines out");
-            sets_something = true;
-            set_entry(handler, *entry, dealii::Utilities::trim(setting->substr(equals + 1)), where);
+            given.insert(path);
+            set_value(declared, *parameter, dealii::Utilities::trim(setting->substr(equals + 1)), where);
           }
         else
-          refuse_line(file, line, open, entries);
+          refuse_line(file, line, open, declared);
       }
     require(open.line == 0, place(file, open.line) + "'subsection " + open.name + "' has no 'end'");
   }
@@ -390,7 +309,7 @@ namespace tread
   {
     if (!file.empty())
       parse(file);
-    require(file.empty() || sets_something || !settings.empty(),
+    require(file.empty() || !given.empty() || !settings.empty(),
             "'" + shortened(file) +
               "' sets no parameter: it is empty, or has comments alone; scenes to start from are in prm/, "
               "and tread parameters writes all parameters with their defaults");
@@ -447,12 +366,14 @@ namespace tread
     if (equals == std::string::npos)
       throw InputError("-s \"" + shortened(setting) + "\": expected Section/Name=value");
     const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
-    const std::vector<Entry> entries = all_entries(handler);
-    for (const Entry &entry : entries)
-      if (entry.path == path)
-        return set_entry(handler, entry, value, "");
+    if (const Parameter *const parameter = declared.find(path))
+      {
+        set_value(declared, *parameter, value, "");
+        given.insert(path);
+        return;
+      }
     const std::string unknown = shortened(path);
-    if (std::any_of(entries.begin(), entries.end(), [&](const Entry &e) { return e.path == value; }))
+    if (declared.find(value))
       throw InputError("-s \"" + shortened(setting) + "\": the parameter comes first, as in \"" + value +
                        "=" + unknown + "\"");
     char *end;
@@ -460,37 +381,40 @@ namespace tread
     if (*end == 0)
       throw InputError("-s \"" + shortened(setting) + "\": '" + unknown +
                        "' is no parameter; expected Section/Name=value");
-    throw InputError("no parameter '" + unknown + "'; " + did_you_mean(entries, unknown));
+    throw InputError("no parameter '" + unknown + "'; " + did_you_mean(declared.parameters(), unknown));
   }
 
 
-  std::vector<ParameterFile::Parameter> ParameterFile::changed_values() const
+  bool ParameterFile::same_value(const std::string &a, const std::string &b)
   {
-    const auto same = [](const std::string &a, const std::string &b) {
-      char        *end_a, *end_b;
-      const double number_a = std::strtod(a.c_str(), &end_a), number_b = std::strtod(b.c_str(), &end_b);
-      return a == b || (!a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && number_a == number_b);
-    };
-    std::vector<Parameter> changed;
-    for (const Entry &entry : all_entries(handler))
-      if (!same(entry.value, entry.normal))
-        changed.push_back({entry.path, entry.value});
+    char        *end_a, *end_b;
+    const double number_a = std::strtod(a.c_str(), &end_a), number_b = std::strtod(b.c_str(), &end_b);
+    return a == b || (!a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && number_a == number_b);
+  }
+
+
+  std::vector<ParameterFile::Setting> ParameterFile::changed_values() const
+  {
+    std::vector<Setting> changed;
+    for (const Parameter &parameter : declared.parameters())
+      if (const std::string value = declared.value(parameter); !same_value(value, parameter.normal))
+        changed.push_back({parameter.path(), value, true});
     return changed;
   }
 
 
-  std::vector<ParameterFile::Parameter> ParameterFile::values() const
+  std::vector<ParameterFile::Setting> ParameterFile::values() const
   {
-    std::vector<Parameter> parameters;
-    for (const Entry &entry : all_entries(handler))
-      parameters.push_back({entry.path, entry.value});
-    return parameters;
+    std::vector<Setting> values;
+    for (const Parameter &parameter : declared.parameters())
+      values.push_back({parameter.path(), declared.value(parameter), given.count(parameter.path()) > 0});
+    return values;
   }
 
 
   void ParameterFile::print(std::ostream &out, const bool with_documentation) const
   {
-    handler.print_parameters(
+    declared.handler().print_parameters(
       out, (with_documentation ? dealii::ParameterHandler::PRM : dealii::ParameterHandler::ShortPRM) |
              dealii::ParameterHandler::KeepDeclarationOrder);
   }
@@ -508,7 +432,30 @@ namespace tread
 
   void ParameterFile::print_json(std::ostream &out) const
   {
-    handler.print_parameters(out,
-                             dealii::ParameterHandler::JSON | dealii::ParameterHandler::KeepDeclarationOrder);
+    declared.handler().print_parameters(out, dealii::ParameterHandler::JSON |
+                                               dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+
+
+  void ParameterFile::print_schema(std::ostream &out) const
+  {
+    using Json        = nlohmann::ordered_json;
+    const auto object = [](Json &&properties) {
+      return Json{{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
+    };
+    Json sections = Json::object();
+    for (const Parameter &parameter : declared.parameters())
+      {
+        Json schema{{"description", parameter.meaning}};
+        schema.update(parameter.allowed->schema());
+        schema["default"]                           = parameter.allowed->value(parameter.normal);
+        sections[parameter.section][parameter.name] = std::move(schema);
+      }
+    for (auto &[name, parameters] : sections.items())
+      parameters = object(std::move(parameters));
+    Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                {"title", "Parameters of tread"}};
+    schema.update(object(std::move(sections)));
+    out << schema.dump(1) << std::endl;
   }
 } // namespace tread

@@ -63,8 +63,7 @@ namespace tread
         require(values.size() == 3 && values[2] > 0. &&
                   std::all_of(values.begin(), values.end(),
                               [](const double value) { return std::isfinite(value); }),
-                "'Output/Cells' cannot be '" + text +
-                  "'; allowed: x,y,depth in mm, depth above 0, entries separated by semicolons");
+                "'Output/Cells' cannot be '" + text + "'; allowed: " + OutputSection::form_of_cells);
         const double     depth = 1e-3 * values[2];
         dealii::Point<3> place(1e-3 * values[0], 1e-3 * values[1], 0.);
         // Below a wheelset in a position depth is measured across the plane of contact, which may be steep.

@@ -6,26 +6,26 @@ namespace tread
   Scene::Scene()
   {
     // In this order the parameters are printed.
-    general.declare(input.entries());
-    wheel.declare(input.entries());
-    wheelset.declare(input.entries());
-    guidance.declare(input.entries());
-    rail.declare(input.entries());
-    defect.declare(input.entries());
-    mesh.declare(input.entries());
-    solid.declare(input.entries());
-    contact.declare(input.entries());
-    track.declare(input.entries());
-    vehicle.declare(input.entries());
-    motion.declare(input.entries());
-    further_wheels.declare(input.entries());
-    time_stepping.declare(input.entries());
-    start.declare(input.entries());
-    output.declare(input.entries());
-    peak_stress.declare(input.entries());
-    ratcheting.declare(input.entries());
-    damage.declare(input.entries());
-    profile_wear.declare(input.entries());
-    watchdogs.declare(input.entries());
+    general.declare(input.table());
+    wheel.declare(input.table());
+    wheelset.declare(input.table());
+    guidance.declare(input.table());
+    rail.declare(input.table());
+    defect.declare(input.table());
+    mesh.declare(input.table());
+    solid.declare(input.table());
+    contact.declare(input.table());
+    track.declare(input.table());
+    vehicle.declare(input.table());
+    motion.declare(input.table());
+    further_wheels.declare(input.table());
+    time_stepping.declare(input.table());
+    start.declare(input.table());
+    output.declare(input.table());
+    peak_stress.declare(input.table());
+    ratcheting.declare(input.table());
+    damage.declare(input.table());
+    profile_wear.declare(input.table());
+    watchdogs.declare(input.table());
   }
 } // namespace tread

@@ -102,11 +102,11 @@ namespace tread
 
   std::shared_ptr<const FrictionLaw> friction_law(const Scene &scene)
   {
-    const Section section(scene.parameters().entries(), "Contact");
+    const Section section(scene.parameters().table(), "Contact");
     try
       {
         const auto law = make_friction_law(scene.contact.friction_law, scene.contact.friction_coefficient,
-                                           scene.parameters().entries());
+                                           scene.parameters().table().handler());
         if (law->memory().distance >= 0.)
           return law;
         return std::make_shared<RememberingFriction>(
@@ -139,10 +139,10 @@ namespace tread
 
   DamageIndices indices_of_damage(const Scene &scene)
   {
-    const Section section(scene.parameters().entries(), "Damage");
+    const Section section(scene.parameters().table(), "Damage");
     DamageIndices indices;
     for (const DamageIndexEntry &entry : damage_indices())
-      if (auto index = entry.make(scene.parameters().entries()))
+      if (auto index = entry.make(scene.parameters().table().handler()))
         indices.emplace_back(entry.key, std::move(index));
     return indices;
   }
@@ -150,8 +150,9 @@ namespace tread
 
   std::shared_ptr<const WearLaw> wear_law(const Scene &scene)
   {
-    const Section section(scene.parameters().entries(), "Damage");
-    return entry_named(wear_laws(), scene.damage.wear_law, "wear law").make(scene.parameters().entries());
+    const Section section(scene.parameters().table(), "Damage");
+    return entry_named(wear_laws(), scene.damage.wear_law, "wear law")
+      .make(scene.parameters().table().handler());
   }
 
 

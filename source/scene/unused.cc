@@ -309,7 +309,7 @@ namespace tread
              (path == "Defect/Length (mm)" || path == "Defect/Position (mm)" || path == "Defect/Width (mm)");
     };
     std::vector<std::string> unused;
-    for (const auto &[path, value] : input.changed_values())
+    for (const auto &[path, value, is_given] : input.changed_values())
       for (const Group &group : groups)
         if (!group.counts && concerns(group, path) && !places_region(path))
           {

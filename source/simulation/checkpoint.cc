@@ -18,7 +18,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -28,7 +27,7 @@ namespace tread
   {
     /// To be counted up when the order or the meaning of what is stored changes. The archive knows the size
     /// of each value by itself.
-    constexpr const char *layout = "tread-checkpoint-34";
+    constexpr const char *layout = "tread-checkpoint-35";
 
     /// A text with its size before it.
     std::string with_size(const std::string &text)
@@ -50,23 +49,7 @@ namespace tread
       return content.substr(place - size, size);
     }
 
-    /// Values by Section/Name, all but those of the output.
-    std::map<std::string, std::string> settings_in(std::istream &&text)
-    {
-      std::map<std::string, std::string> settings;
-      std::string                        section;
-      for (std::string line; std::getline(text, line);)
-        {
-          line                     = dealii::Utilities::trim(line.substr(0, line.find('#')));
-          const std::size_t equals = line.find('=');
-          if (line.compare(0, 11, "subsection ") == 0)
-            section = line.substr(11);
-          else if (line.compare(0, 4, "set ") == 0 && equals != line.npos && section != "Output")
-            settings[section + "/" + dealii::Utilities::trim(line.substr(4, equals - 4))] =
-              dealii::Utilities::trim(line.substr(equals + 1));
-        }
-      return settings;
-    }
+    const std::string rolled_distance = "Motion/Rolled distance (mm)";
   } // namespace
 
 
@@ -78,33 +61,34 @@ namespace tread
   }
 
 
+  std::vector<ParameterFile::Setting> Checkpoint::settings_that_stay() const
+  {
+    const std::vector<std::string> of_output{"Output/Supports", "Output/Cells", "Output/Pictures",
+                                             "Output/Strip half width (mm)"},
+      of_the_end{"Output", "Ratcheting", "Profile wear", "Watchdogs"};
+    const auto is_among = [](const std::string &name, const std::vector<std::string> &names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    std::vector<ParameterFile::Setting> settings;
+    for (const ParameterFile::Setting &setting : scene.parameters().values())
+      if (is_among(setting.path, of_output) ||
+          (!is_among(setting.path.substr(0, setting.path.find('/')), of_the_end) &&
+           // It may grow up to the longest one, which stays.
+           !(setting.path == rolled_distance && scene.motion.longest_distance > 0.)))
+        settings.push_back(setting);
+    return settings;
+  }
+
+
   std::string Checkpoint::parameters() const
   {
-    std::ostringstream text;
-    scene.parameters().print(text, false);
-    const std::string all = text.str();
-    // At the beginning of a line: a value may have the same words.
-    const auto section = [&all](const std::string &name) {
-      const std::size_t begin = all.find("\nsubsection " + name + "\n");
-      return std::make_pair(begin, all.substr(begin, all.find("\nend\n", begin) - begin));
-    };
-    std::string supports;
-    for (const int number : scene.output.supports)
-      supports += (supports.empty() ? "" : ",") + std::to_string(number);
-    std::string contents;
+    nlohmann::ordered_json values;
+    for (const ParameterFile::Setting &setting : settings_that_stay())
+      values[setting.path] = setting.value;
     for (const FileRead &file : scene.parameters().files_read())
       if (!file.is_scene())
-        contents +=
-          "contents of '" + file.parameter + "' with the checksum " + std::to_string(file.crc32) + "\n";
-    std::string before_output = all.substr(0, section("Output").first);
-    // It may grow up to the longest one, which stays.
-    if (scene.motion.longest_distance > 0.)
-      before_output =
-        std::regex_replace(before_output, std::regex("\n *set Rolled distance \\(mm\\) [^\n]*"), "");
-    return before_output + section("Peak stress").second + "\nset Supports = " + supports +
-           "\nset Cells = " + scene.output.cells + "\nset Pictures = " + name_of(scene.output.pictures) +
-           "\nset Strip half width (mm) = " + std::to_string(1e3 * scene.output.strip_half_width) + "\n" +
-           contents;
+        values["contents of '" + file.parameter + "', checksum"] = std::to_string(file.crc32);
+    return values.dump();
   }
 
 
@@ -176,65 +160,85 @@ namespace tread
 
   void Checkpoint::require_same_parameters(const std::string &of_checkpoint) const
   {
-    const std::string own = parameters();
-    if (of_checkpoint == own)
-      return;
-    std::istringstream old_lines(of_checkpoint), new_lines(own);
-    std::string        old_line, new_line;
-    while (std::getline(old_lines, old_line) && std::getline(new_lines, new_line) && old_line == new_line)
-      ;
-    const auto trimmed = [](const std::string &line) {
-      return line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+    using Values = std::map<std::string, std::string>;
+    Values before, now;
+    try
+      {
+        before = nlohmann::json::parse(of_checkpoint).get<Values>();
+        now    = nlohmann::json::parse(parameters()).get<Values>();
+      }
+    catch (const nlohmann::json::exception &)
+      {
+        throw InputError(damaged());
+      }
+    Values all = before;
+    all.insert(now.begin(), now.end());
+    const auto value = [](const Values &values, const std::string &name) {
+      const auto found = values.find(name);
+      return found == values.end() ? "none" : found->second.empty() ? "empty" : found->second;
     };
-    const bool of_distance = trimmed(new_line).rfind("set Rolled distance", 0) == 0;
-    throw InputError("--resume: the checkpoint was made with other parameters: '" + trimmed(old_line) +
-                     "', now '" + trimmed(new_line) + "'" +
-                     (of_distance ? "; a run can be made longer if it began with a 'Motion/Longest distance "
-                                    "(mm)', for which its rail is meshed"
-                                  : ""));
+    for (const auto &[name, text] : all)
+      require(ParameterFile::same_value(value(before, name), value(now, name)),
+              "--resume: the checkpoint was made with other parameters: '" + name + "' " +
+                value(before, name) + ", now " + value(now, name) +
+                (name == rolled_distance ? "; a run can be made longer if it began with a 'Motion/Longest "
+                                           "distance (mm)', for which its rail is meshed"
+                                         : ""));
+  }
+
+
+  std::vector<ParameterFile::Setting> Checkpoint::parameters_of_run() const
+  {
+    try
+      {
+        const auto settings = Scene::parameters_in(folder.path("parameters.prm"));
+        for (const ParameterFile::Setting &setting : settings)
+          require(setting.is_given, "it has no '" + setting.path + "'");
+        return settings;
+      }
+    catch (const InputError &error)
+      {
+        throw InputError(
+          "--resume: the run in '" + folder.path("") +
+          "' is complete, but its 'parameters.prm' is damaged or of another version: " + error.what());
+      }
   }
 
 
   void Checkpoint::require_parameters_of_run() const
   {
+    const auto check = [this]() {
+      std::map<std::string, std::string> before;
+      for (const ParameterFile::Setting &setting : parameters_of_run())
+        before[setting.path] = setting.value;
+      std::vector<ParameterFile::Setting> now = settings_that_stay();
+      for (const ParameterFile::Setting &setting : scene.parameters().values())
+        if (setting.path == rolled_distance) // not among those of a run that may go on
+          now.push_back(setting);
+      const std::string run  = "--resume: the run in '" + folder.path("") + "' is complete, ",
+                        anew = "; without --resume it starts anew";
+      for (const ParameterFile::Setting &setting : now)
+        require(ParameterFile::same_value(before.at(setting.path), setting.value),
+                run + "and was made with '" + setting.path + "' " + before.at(setting.path) + ", now " +
+                  setting.value + anew);
+      const FilesCompared files = compare_files(
+        files_in_comments(text_of_file(folder.path("parameters.prm"))), scene.parameters().files_read());
+      require(files.unlike.empty(), run + "and was made with other contents: " + files.unlike + anew);
+      require(files.unknown.empty(), run + "but its 'parameters.prm' does not say what the file of '" +
+                                       files.unknown + "' contained" + anew);
+    };
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        std::stringstream all;
-        scene.parameters().print(all, false);
-        const std::string distance = "Motion/Rolled distance (mm)"; // not among those of a run that may go on
-        const auto of_run = settings_in(std::istringstream(text_of_file(folder.path("parameters.prm"))));
-        auto       now    = settings_in(std::istringstream(parameters()));
-        const auto whole  = settings_in(std::move(all));
-        now[distance]     = whole.at(distance);
-        for (const auto &[name, value] : whole)
-          if (of_run.find(name) == of_run.end())
-            problem =
-              "--resume: the run in '" + folder.path("") +
-              "' is complete, but its 'parameters.prm' is damaged or of another version: it has no '" + name +
-              "'";
-        for (const auto &[name, value] : now)
-          if (const auto before = of_run.find(name); before != of_run.end() && before->second != value)
-            problem = "--resume: the run in '" + folder.path("") + "' is complete, and was made with '" +
-                      name + "' " + before->second + ", now " + value + "; without --resume it starts anew";
-        if (problem.empty())
-          {
-            const FilesCompared files =
-              compare_files(files_in_comments(text_of_file(folder.path("parameters.prm"))),
-                            scene.parameters().files_read());
-            if (!files.unlike.empty())
-              problem = "--resume: the run in '" + folder.path("") +
-                        "' is complete, and was made with other contents: " + files.unlike +
-                        "; without --resume it starts anew";
-            else if (!files.unknown.empty())
-              problem = "--resume: the run in '" + folder.path("") +
-                        "' is complete, but its 'parameters.prm' does not say what the file of '" +
-                        files.unknown + "' contained; without --resume it starts anew";
-          }
-      }
+      try
+        {
+          check();
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
+        }
     problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
-    if (!problem.empty())
-      throw InputError(problem);
+    require(problem.empty(), problem);
   }
 
 
@@ -242,13 +246,18 @@ namespace tread
   {
     bool is_longer = false;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0 && scene.motion.longest_distance > 0.)
-      {
-        const auto   of_run = settings_in(std::istringstream(text_of_file(folder.path("parameters.prm"))));
-        const auto   rolled = of_run.find("Motion/Rolled distance (mm)");
-        const double tiny   = 1e-9; // m
-        is_longer           = rolled != of_run.end() &&
-                    1e-3 * std::strtod(rolled->second.c_str(), nullptr) + tiny < scene.motion.rolled_distance;
-      }
+      try
+        {
+          constexpr double tiny = 1e-9; // m
+          for (const ParameterFile::Setting &setting : parameters_of_run())
+            if (setting.path == rolled_distance)
+              is_longer =
+                1e-3 * std::strtod(setting.value.c_str(), nullptr) + tiny < scene.motion.rolled_distance;
+        }
+      catch (const InputError &)
+        {
+          // require_parameters_of_run() says what is wrong.
+        }
     return dealii::Utilities::MPI::broadcast(comm, is_longer, 0);
   }
 

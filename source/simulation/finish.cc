@@ -233,9 +233,8 @@ namespace tread
   {
     const RunFolder                                 &folder = report.folder;
     std::vector<std::pair<std::string, std::string>> parameters;
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      for (const ParameterFile::Parameter &parameter : Scene::parameters_in(folder.path("parameters.prm")))
-        parameters.emplace_back(parameter.path, parameter.value);
+    for (const ParameterFile::Setting &setting : scene.parameters().values())
+      parameters.emplace_back(setting.path, setting.value);
     folder.write_hdf5(report.summary.text(), parameters);
     // Last but for the pictures, which are there: it says that the run is complete.
     folder.write("summary.json", report.summary.text());

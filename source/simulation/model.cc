@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // From a scene to what rolls.
-#include <tread/analysis/seat_modes.h>
 #include <tread/base/format.h>
-#include <tread/dynamics/parts/added_mass.h>
-#include <tread/dynamics/parts/nodes.h>
 #include <tread/dynamics/parts/rail_base.h>
 #include <tread/dynamics/parts/rail_on_beam.h>
 #include <tread/dynamics/parts/supports.h>
-#include <tread/dynamics/parts/track_beyond.h>
-#include <tread/dynamics/parts/wheel.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/surface_laws.h>
-#include <tread/scene/track_parts.h>
 #include <tread/scene/wheelset_case.h>
 #include <tread/simulation/model.h>
-#include <tread/track/rail_ends.h>
-#include <tread/track/track_beam.h>
+#include <tread/simulation/model_parts.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -42,45 +35,11 @@ namespace tread
   {
     for (unsigned int number = 0; number < scene.n_wheels(); ++number)
       wheels.emplace_back(scene, number);
-    if (scene.track.has_supports())
-      add_supports();
-    else if (!scene.track.has_moving_base())
-      dynamics.fix_nodes(dynamics.support_nodes(rail_body));
-    if (scene.rail_mesh())
-      {
-        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
-        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
-      }
-    for (RollingWheel &wheel : wheels)
-      {
-        dynamics.guide_nodes(dynamics.boundary_nodes(wheel.body, Boundary::side), 1);
-        const CarriesBody &carrier =
-          dynamics.add<WheelOnHub>(wheel.hub, wheel.body, wheel.hub.motion.angular_velocity);
-        if (solid.may_add_mass())
-          dynamics.add<AddedMassOnWheel>(carrier);
-      }
-    if (scene.track.runs_along())
-      {
-        rail_base = std::make_unique<RailBase>(rail_base_parameters(scene));
-        dynamics.add<RailOnBase>(*rail_base, rail_body);
-      }
-    if (scene.track.is_beam())
-      rail_on_beam = &dynamics.add<RailOnBeam>(beam_under_rail(scene), rail_body);
+    for (const auto add : model_parts())
+      add(*this);
     dynamics.attach_contact(contact);
     if (window.number == 0)
       check_added_mass();
-    add_friction_that_varies();
-    if (scene.motion.lateral_creepage != 0. || scene.motion.spin != 0.)
-      contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
-        const auto wheel =
-          std::find_if(wheels.begin(), wheels.end(), [&](const RollingWheel &w) { return w.body == body; });
-        // The sliding is a velocity, at the middle of the step: there the hub will be half a step further.
-        const WheelHub::Motion &hub = wheel->hub.motion;
-        const double            x   = place[0] - (hub.x + 0.5 * dynamics.state.time_step * hub.velocity_x),
-                     y              = place[1] - this->scene.first_contact().y;
-        const MotionSection &motion = this->scene.motion;
-        return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
-      });
   }
 
 
@@ -132,51 +91,6 @@ namespace tread
                    "allowed (without it --dry-run prints what several steps add)",
                    1e6 * scene.time_stepping.least_step, added.rail, added.wheels,
                    100. * added.error_estimate, 100. * AddedMass::largest_error));
-  }
-
-
-  void Model::add_supports()
-  {
-    supports = std::make_unique<Supports>(mesh, rail_body, support_positions(scene), track_parameters(scene),
-                                          solid_sleepers(scene));
-    for (const int number : recorded_supports(scene))
-      supports->add_probe(mid_span_beside(scene, number));
-    auto beyond = track_beyond(scene);
-    if (beyond && scene.track.has_solid_sleepers())
-      {
-        TrackParameters alike = track_parameters(scene);
-        alike.exceptions.clear();
-        (*beyond)[0].sleeper = (*beyond)[1].sleeper =
-          modes_at_seat(mesh, rail_body, supports->solid_sleepers.front(), support_positions(scene).front(),
-                        alike, materials(scene), solid_parameters(scene));
-      }
-    dynamics.add<RailOnSupports>(*supports, scene.rail.material.elastic(), beyond);
-    if (beyond)
-      dynamics.add<RailOnTrackBeyond>(rail_body, scene.rail.material.elastic(), *beyond);
-    else
-      dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
-    if (const AbsorbingEnds ends = absorbing_ends(scene); ends.length > 0.)
-      dynamics.add<DampedNodes>(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
-    dynamics.guide_nodes(supports->guided_nodes(1), 1);
-    for (const SolidSleeper &sleeper : supports->solid_sleepers)
-      dynamics.guide_nodes(dynamics.boundary_nodes(sleeper.body, Boundary::end), 1);
-    if (!supports->solid_sleepers.empty())
-      dynamics.guide_nodes(supports->guided_nodes(0), 0);
-  }
-
-
-  void Model::add_friction_that_varies()
-  {
-    const ContactSection &section = scene.contact;
-    if (!section.friction_places.empty() || section.varies_across())
-      contact.vary_friction([this](const Vector3 place) {
-        const Scene &of = this->scene;
-        return of.contact.friction_factor(place[0]) *
-               (of.contact.varies_across() ? factor_across(of, place) : 1.);
-      });
-    if (!section.friction_pressures.empty())
-      contact.vary_friction_with_pressure(
-        [this](const double pressure) { return this->scene.contact.pressure_factor(pressure); });
   }
 
 

@@ -6,11 +6,9 @@
 #include <tread/scene/assumptions.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/measured_profiles.h>
-#include <tread/scene/track_parts.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/doubts.h>
-#include <tread/simulation/recorders/impact_record.h>
-#include <tread/simulation/recorders/stresses.h>
+#include <tread/simulation/recorders/on_demand.h>
 #include <tread/simulation/recorders/surface_damage.h>
 #include <tread/simulation/simulation.h>
 
@@ -20,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <typeinfo>
 
 namespace tread
 {
@@ -60,15 +59,9 @@ namespace tread
   {
     SurfaceDamageRecorder *const damage =
       scene.damage.record ? &record<SurfaceDamageRecorder>(model) : nullptr;
-    if (scene.has_impacts())
-      record<ImpactRecord>(scene.static_load(), recorded_supports(scene));
-    if (scene.output.strip_half_width > 0.)
-      record<StripRecorder>(model, window);
-    if (scene.peak_stress.is_wanted())
-      record<PeakRecorder>(model);
-    if (!recorded_supports(scene).empty())
-      record<SeatRecorder>(model);
-    record<PlasticStrainRecorder>(model);
+    for (const auto make : recorders_on_demand())
+      if (auto recorder = make(model, window))
+        recorders.push_back(std::move(recorder));
     if (scene.motion.passages > 1)
       passages = &record<Passages>(model, end_of_way, solution);
     pictures = &record<Pictures>(model, damage);
@@ -84,8 +77,12 @@ namespace tread
 
   void Simulation::serialize_records(Archive &archive)
   {
-    for (const auto &recorder : recorders)
-      recorder->serialize(archive);
+    for (const auto &kept : recorders)
+      {
+        Recorder &recorder = *kept;
+        archive.kind(typeid(recorder));
+        recorder.serialize(archive);
+      }
     for (RollingWheel &wheel : model.wheels)
       wheel.serialize(archive);
     archive.same(torque_released, starts_with_tractions, next_wheel_due);

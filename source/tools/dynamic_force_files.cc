@@ -53,25 +53,13 @@ namespace tread
       return history;
     }
 
-    bool same(const std::string &a, const std::string &b)
-    {
-      try
-        {
-          return a == b || dealii::Utilities::string_to_double(a) == dealii::Utilities::string_to_double(b);
-        }
-      catch (const dealii::ExceptionBase &)
-        {
-          return false;
-        }
-    }
-
     /// A twin differs from its run by the defect, or by what the wheel is not round by, alone. @returns a
     /// warning where that is not so, or not sure; else ""
     std::string compare_parameters(const std::string &run, const std::string &twin)
     {
-      const std::vector<ParameterFile::Parameter> of_run  = Scene::parameters_in(run + "/parameters.prm"),
-                                                  of_twin = Scene::parameters_in(twin + "/parameters.prm");
-      bool has_cause                                      = false;
+      const std::vector<ParameterFile::Setting> of_run  = Scene::parameters_in(run + "/parameters.prm"),
+                                                of_twin = Scene::parameters_in(twin + "/parameters.prm");
+      bool has_cause                                    = false;
       for (std::size_t i = 0; i < of_run.size(); ++i)
         {
           const std::string &path = of_run[i].path;
@@ -86,7 +74,7 @@ namespace tread
               }
           const bool may_be_unlike = path.starts_with("Defect/") || path.starts_with("Output/") ||
                                      path.starts_with("Wheel/Deviation") || path == "Scene/Title";
-          if (!may_be_unlike && !same(of_run[i].value, of_twin[i].value))
+          if (!may_be_unlike && !ParameterFile::same_value(of_run[i].value, of_twin[i].value))
             throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
                              " and '" + of_twin[i].value + "' in " + twin);
         }
@@ -101,8 +89,8 @@ namespace tread
         return "whether " + run + " and " + twin + " have read the same file of '" + files.unknown +
                "' is not known: parameters.prm of one of them does not say what it contained";
       const auto of_twin_is = [&](const std::string &path, const std::string &value) {
-        return std::any_of(of_twin.begin(), of_twin.end(), [&](const ParameterFile::Parameter &parameter) {
-          return parameter.path == path && same(parameter.value, value);
+        return std::any_of(of_twin.begin(), of_twin.end(), [&](const ParameterFile::Setting &parameter) {
+          return parameter.path == path && ParameterFile::same_value(parameter.value, value);
         });
       };
       // See Scene::settles().

@@ -135,7 +135,7 @@ namespace tread
 
       const std::string &text(const std::string &path) const
       {
-        for (const ParameterFile::Parameter &parameter : list)
+        for (const ParameterFile::Setting &parameter : list)
           if (parameter.path == path)
             return parameter.value;
         throw InputError(run + "/parameters.prm has no '" + path + "'");
@@ -147,8 +147,8 @@ namespace tread
       }
 
     private:
-      const std::string                     run;
-      std::vector<ParameterFile::Parameter> list;
+      const std::string                   run;
+      std::vector<ParameterFile::Setting> list;
     };
 
     SeatPressures pressures_of(const RecordedSeat &seat, const Parameters &parameters, const std::string &run)

@@ -458,7 +458,7 @@ namespace tread
     std::string inputs(const Scene &scene, const std::string &contacts)
     {
       std::string text;
-      for (const ParameterFile::Parameter &parameter : scene.parameters().changed_values())
+      for (const ParameterFile::Setting &parameter : scene.parameters().changed_values())
         if (parameter.path.rfind("Output/", 0) != 0)
           text += parameter.path + '=' + parameter.value + '\n';
       for (const FileRead &file : files_of(scene, contacts))

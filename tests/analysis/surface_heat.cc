@@ -167,15 +167,16 @@ namespace analysis_surface_heat
     const DamageIndex::Load load{100e3, 25e3, 140e-6, 1000e6, 700., 250e6};
     DamageIndex::Load       unknown = load;
     unknown.shear_strength          = 0.;
-    dealii::ParameterHandler section;
+    ParameterTable table;
+    Section        section(table, "Damage");
     declare_damage_indices(section);
-    section.set("Function T-gammas (N)", "15, 65, 175");
-    section.set("Function damages", "0, 10, 0");
+    table.set(*table.find("Damage/Function T-gammas (N)"), "15, 65, 175");
+    table.set(*table.find("Damage/Function damages"), "0, 10, 0");
     const double wanted[] = {0.25, 4., 0., 5e6, 26.5e-3, 0.};
     unsigned int k        = 0;
     for (const DamageIndexEntry &entry : damage_indices())
       {
-        const auto index = entry.make(section);
+        const auto index = entry.make(table.handler());
         check.absolute(entry.key, index->value(load).value() / std::max(wanted[k], 1e-3),
                        wanted[k] / std::max(wanted[k], 1e-3), 1e-12);
         check.that(entry.key + " is there without a yield stress if it does not need it",

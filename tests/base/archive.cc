@@ -50,6 +50,19 @@ namespace base_archive
     std::memcpy(bytes.data() + place, &value, sizeof value);
     return bytes;
   }
+
+  struct OtherState : State
+  {
+  };
+
+  /// As a run keeps its parts and recorders.
+  template <typename Kind>
+  void keep(Archive &archive)
+  {
+    Kind state;
+    archive.kind(typeid(state));
+    state.serialize(archive);
+  }
 } // namespace base_archive
 
 TREAD_TEST(base_archive)(tests::Check &check, const tests::Arguments &)
@@ -91,4 +104,14 @@ TREAD_TEST(base_archive)(tests::Check &check, const tests::Arguments &)
   State longer;
   longer.fixed.push_back(6.);
   refused("another number of values than the scene has", stored(longer));
+
+  Archive kept(MPI_COMM_SELF);
+  keep<State>(kept);
+  Archive found(MPI_COMM_SELF, kept.stored());
+  keep<State>(found);
+  check.that("what a kind has stored it finds again", found.found_all());
+  check.that("another kind with the same numbers is refused", !tests::complaint<Archive::OtherLayout>([&] {
+                                                                 Archive others(MPI_COMM_SELF, kept.stored());
+                                                                 keep<OtherState>(others);
+                                                               }).empty());
 }

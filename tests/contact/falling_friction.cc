@@ -323,14 +323,16 @@ namespace contact_falling_friction
   /// with the least speed, and is that of a node which has not slid when it touches again.
   void check_memory(Check &check)
   {
-    constexpr double         way = 2e-3, least_speed = 0.05, dt = Block::time_step;
-    dealii::ParameterHandler section;
+    constexpr double way = 2e-3, least_speed = 0.05, dt = Block::time_step;
+    ParameterTable   table;
+    Section          section(table, "Contact");
     declare_friction_laws(section);
-    section.set("Kinetic friction coefficient", kinetic_coefficient);
-    section.set("Falling slip speed (m per s)", slip_speed);
-    section.set("Friction memory (mm)", 1e3 * way);
-    section.set("Least speed of memory (m per s)", least_speed);
-    const auto law = make_friction_law("falling", static_coefficient, section);
+    for (const auto &[name, value] :
+         {std::pair("Kinetic friction coefficient", kinetic_coefficient),
+          std::pair("Falling slip speed (m per s)", slip_speed), std::pair("Friction memory (mm)", 1e3 * way),
+          std::pair("Least speed of memory (m per s)", least_speed)})
+      table.set(*table.find(std::string("Contact/") + name), format("%.17g", value));
+    const auto law = make_friction_law("falling", static_coefficient, table.handler());
     Block      block(*law);
     block.set_speed(1.);
     double     speed = 1., now = static_coefficient, apart = 0.;
@@ -387,13 +389,14 @@ namespace contact_falling_friction
   /// What a scene relies on, of every law that is registered.
   void check_registry(Check &check)
   {
-    dealii::ParameterHandler section;
+    ParameterTable table;
+    Section        section(table, "Contact");
     declare_friction_laws(section);
     for (const FrictionLawEntry &entry : friction_laws())
       {
         const std::string name = "law " + entry.name + ": ";
         check.that(name + "is described", !entry.description.empty());
-        const auto law = make_friction_law(entry.name, static_coefficient, section);
+        const auto law = make_friction_law(entry.name, static_coefficient, table.handler());
         check.relative(name + "coefficient without slip", law->coefficient(0.), static_coefficient, 1e-15);
         double error = 0., beyond_least = 0.;
         for (const double stopping : {1e-3, 1., 10., 100.})
@@ -417,7 +420,8 @@ namespace contact_falling_friction
         check.that(name + "never negative", !negative);
       }
     check.that("an unknown name is refused", !tests::complaint<std::invalid_argument>([&] {
-                                                make_friction_law("Coulombs", static_coefficient, section);
+                                                make_friction_law("Coulombs", static_coefficient,
+                                                                  table.handler());
                                               }).empty());
     bool refused = false;
     try

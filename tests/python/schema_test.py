@@ -25,28 +25,16 @@ CHECK = os.path.join(ROOT, "contrib/check-scene.py")
 
 
 class Words(unittest.TestCase):
-    def test_what_the_program_says_is_allowed(self):
-        for text, wanted in ((None, {"type": "string"}), ("true or false", {"type": "boolean"}), ("0 to 2", {"type": "number", "minimum": 0, "maximum": 2}),
-                             ("-1e+06 to 0.5", {"type": "number", "minimum": -1000000, "maximum": 0.5}), ("0 or more", {"type": "number", "minimum": 0}),
-                             ("at most -1", {"type": "number", "maximum": -1}), ("a finite number", {"type": "number"}),
-                             ("sector or full", {"enum": ["sector", "full"]}),
-                             ("'masses' or a number from 0 or more", {"anyOf": [{"const": "masses"}, {"type": "number", "minimum": 0}]}),
-                             ("up to 5 numbers from 0 to 1, separated by commas",
-                              {"type": "array", "items": {"type": "number", "minimum": 0, "maximum": 1}, "maxItems": 5})):
-            self.assertEqual(schema.schema_of(text), wanted)
-        for text in ("[Map of x]", "much"):
-            with self.assertRaisesRegex(schema.Error, "is not understood"):
-                schema.schema_of(text)
-
     def test_values(self):
         number, whole = {"type": "number", "minimum": 0, "maximum": 2}, {"type": "integer", "minimum": 1, "maximum": 3}
         word = {"anyOf": [{"const": "masses"}, {"type": "number", "minimum": 0}]}
-        cells = schema.schema_of(next(iter(schema.FORMS)))
+        cells, zones = (schema.parameters()[name] for name in ("Output/Cells", "Rail/Plastic zones"))
         some = {"type": "array", "items": number, "minItems": 1, "maxItems": 2}
         for part, right, wrong in ((number, ("0", "2", "1e-3", " 1", ".5"), ("", "x", "2.1", "-1e-9", "nan", "inf", "1_0", "1 mm", "true")),
                                    (whole, ("1", "3", "+2"), ("0", "4", "1.5", "1e0", "2.0", "")), (word, ("masses", "0", "7.5"), ("-1", "mass", "")),
                                    (some, ("0", "1, 2"), ("", "1,2,1", "1,,2", "3")), ({"type": "boolean"}, ("true", "false"), ("yes", "1", "")),
                                    (cells, ("", "-20,0,1.5; -20,0,4", "1, 2 , 3 ;4,5,6;"), ("1,2", "1,2,-3", "1,2,3;4,5", "x")),
+                                   (zones, ("", "-30:-20:8:400:21", "-30:-20:8:4e2:.5 , 1:2:3:400:21,"), ("-30:-20:8:400", "1:2:3:x:21", "1,2")),
                                    ({"enum": ["a b", "c"]}, ("a b", "c"), ("a", "")), ({"type": "string"}, ("", "1", "any"), ())):
             for text in right:
                 self.assertTrue(schema.fits(schema.value_of(text, part), part), (text, part))
@@ -131,13 +119,7 @@ class TheProgram(unittest.TestCase):
             self.assertEqual((schema.value_of(default, known[name]), meaning), (known[name]["default"], known[name]["description"]), name)
 
     def test_ranges_are_current(self):
-        """Of some parameters of each kind; contrib/schema.py --check compares all."""
-        known = schema.parameters()
-        texts = {name: default for section, entries in schema.listing(PROGRAM) for name, default, _ in
-                 [(f"{section}/{name}", default, meaning) for name, default, meaning in entries]}
-        for name in ("Contact/Friction coefficient", "Contact/Largest number of sweeps", "Contact/Friction places (mm)", "Contact/Friction law",
-                     "Vehicle/Wheel load (kN)", "Defect/Profile file", "Scene/Quasi-static", "Wheel/Radius (mm)", "Output/Supports"):
-            self.assertEqual(schema.parameter_schema(name, texts[name], known[name]["description"], PROGRAM), known[name], name)
+        self.assertEqual(schema.parameters(json.loads(execute_often(["parameters", "--schema"], PROGRAM).stdout)), schema.parameters())
 
     def test_the_program_refuses_the_same(self):
         for name, value in (("Contact/Friction coefficient", "2.1"), ("Contact/Largest number of sweeps", "1.5"), ("Motion/Passages", "0"),

@@ -255,7 +255,7 @@ KNOWN: list[tuple[str, str]] = [
     (r"measured_runs\.(dry_run|contact_measures|run_scene.*|in_turn.*turn.*)", "costs and figures of whole programs, for tables of doc/; compared in figures_test.py where a stand-in has them"),
     (r"pictures\.(crossing|impact|mesh|patch)\..*", "what pictures show: pictures_test.py reads it off drawn axes, in a test that takes too long to be watched"),
     (r"differences\.figures_of\[.*\]", "names of what a test puts in: figures_test.py compares all of an answer"),
-    (r"schema\.(check_scenes|make_schema|parameter_schema)", "made with the program's help: schema_test.py compares the whole with the file"),
+    (r"schema\.(check_scenes|of_program)", "made with the program's help: schema_test.py compares the whole with the file"),
     (r"(studies\.main|runs\.processes_below|files\.read_toml)", "an exit code, numbers of processes, a file as it is"),
     (r"half_space\.roll.*", "the library's answers: compared by tests/reference/uneven_way.cc, and with its other answers in figures_test.py"),
     (r"corrugation\.(Contact|Model|gain_at_rest|gain_of_model|responses).*", "compared in figures_test.py in tests that take too long to be watched"),

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A JSON schema of all parameters of a scene, and parameter files checked against it.
 
-The program lists names, defaults and meanings (tread parameters); what it allows it says when it refuses a value. The schema describes
-a scene as {"Section": {"Name": value}}: numbers in the units that the names state, lists as arrays. It lies beside this file and needs
-no program.
+The program writes it (tread parameters --schema). It describes a scene as {"Section": {"Name": value}}: numbers in the units that the
+names state, lists as arrays. It lies beside this file and needs no program.
 """
 
 from __future__ import annotations
 
-import concurrent.futures
 import functools
 import json
 import math
@@ -16,17 +14,10 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 
-from .files import DataError, Error, parameter_lines
-from .runs import PROGRAM, execute, must_end_well, own_line
+from .files import DataError, parameter_lines
+from .runs import PROGRAM, execute, must_end_well
 
 PATH = os.path.join(os.path.dirname(os.path.realpath(__file__)), "parameters.schema.json")
-# Texts of another form, which the program takes apart itself: a JSON pattern of each.
-NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*"
-TRIPLE = f"{NUMBER},{NUMBER},{NUMBER.replace('[-+]', '[+]')}"
-ZONE = f"{NUMBER}(:{NUMBER}){{4}}"
-FORMS = {"x,y,depth in mm, depth above 0, entries separated by semicolons": f"^({TRIPLE}(;{TRIPLE})*;?)?\\s*$",
-         "begin:end:depth:yield stress:tangent modulus, in mm, MPa and GPa": f"^({ZONE}(,{ZONE})*,?)?\\s*$"}
-IMPOSSIBLE = "@"  # a value that only parameters with any text take
 
 
 def sections(listing: str) -> list[tuple[str, list[tuple[str, str, str]]]]:
@@ -50,83 +41,14 @@ def listing(program: str = PROGRAM) -> list[tuple[str, list[tuple[str, str, str]
     return sections(must_end_well(execute(["parameters"], program=program)).stdout)
 
 
-def refusal(path: str, value: str, program: str) -> str | None:
-    """What the program says is allowed in place of a value of the parameter "Section/Name"; None if it takes the value, or refuses it only
-    together with other parameters."""
-    result = execute(["parameters", "-s", f"{path}={value}"], program=program)
-    said = own_line(result.stderr)
-    if result.returncode and not said:
-        must_end_well(result)
-    found = re.fullmatch(re.escape(f"'{path}' cannot be '{value}'; allowed: ") + "(.*)", said or "")
-    return found[1] if result.returncode and found else None
-
-
-def limits_of(text: str) -> dict | None:
-    """Schema of a number in a range as the program words it: "0 to 2", "0 or more", "at most 1", "a finite number"."""
-    number = r"(-?\d[\d.]*(?:e[+-]?\d+)?)"
-    for pattern, names in ((f"{number} to {number}", ("minimum", "maximum")), (f"{number} or more", ("minimum",)),
-                           (f"at most {number}", ("maximum",)), ("a finite number", ())):
-        found = re.fullmatch(pattern, text)
-        if found:
-            return {"type": "number", **{name: plain(float(value)) for name, value in zip(names, found.groups())}}
-    return None
-
-
 def plain(value: float) -> float | int:
     """Whole numbers without a point."""
     return int(value) if value == int(value) and abs(value) < 1e15 else value
 
 
-def schema_of(text: str | None) -> dict:
-    """Schema of what the program allows, in its words; None: any text."""
-    if text is None:
-        return {"type": "string"}
-    if text in FORMS:
-        return {"type": "string", "pattern": FORMS[text]}
-    if text == "true or false":
-        return {"type": "boolean"}
-    found = re.fullmatch(r"up to (\d+) numbers from (.*), separated by commas", text)
-    if found and limits_of(found[2]):
-        return {"type": "array", "items": limits_of(found[2]), "maxItems": int(found[1])}
-    found = re.fullmatch(r"'(.*)' or (?:a number from )?(.*)", text)
-    if found and limits_of(found[2]):
-        return {"anyOf": [{"const": found[1]}, limits_of(found[2])]}
-    limits = limits_of(text)
-    if limits:
-        return limits
-    if " or " in text and not re.search(r"[\[\]']", text):
-        return {"enum": text.split(" or ")}
-    raise Error(f"'{text}' is not understood as what a parameter may be")
-
-
-def parameter_schema(path: str, default: str, meaning: str, program: str = PROGRAM) -> dict:
-    """Schema of one parameter, by asking the program."""
-    schema = schema_of(refusal(path, IMPOSSIBLE, program))
-    part = schema.get("items", schema)
-    if part.get("type") == "number" and all(isinstance(part.get(name), int) for name in ("minimum", "maximum")):
-        # Whole numbers alone, or all between them?
-        if refusal(path, str(part["minimum"] + 0.5), program) is not None:
-            part["type"] = "integer"
-    if schema.get("type") == "array" and default:
-        schema["minItems"] = 1
-    value = value_of(default, schema)
-    return {"description": meaning, **schema, "default": value}
-
-
-def make_schema(program: str = PROGRAM, processes: int = 2) -> dict:
-    """The schema of a program, which is asked once or twice for each parameter; some minutes."""
-    found = listing(program)
-    asked = [(f"{section}/{name}", default, meaning) for section, entries in found for name, default, meaning in entries]
-
-    def ask(one: tuple[str, str, str]) -> dict:
-        return parameter_schema(*one, program)
-
-    with concurrent.futures.ThreadPoolExecutor(processes) as pool:
-        answers = dict(zip((path for path, _, _ in asked), pool.map(ask, asked)))
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Parameters of tread", "type": "object",
-            "additionalProperties": False,
-            "properties": {section: {"type": "object", "additionalProperties": False,
-                                     "properties": {name: answers[f"{section}/{name}"] for name, _, _ in entries}} for section, entries in found}}
+def of_program(program: str = PROGRAM) -> dict:
+    """The schema that a program writes."""
+    return json.loads(must_end_well(execute(["parameters", "--schema"], program=program)).stdout)
 
 
 @functools.lru_cache(maxsize=None)
@@ -176,7 +98,7 @@ def allowed(schema: dict) -> str:
     if schema["type"] == "boolean":
         return "true or false"
     if schema["type"] == "string":
-        return next((words for words, form in FORMS.items() if form == schema.get("pattern")), "any text")
+        return schema.get("$comment", "any text")
     word = "a whole number" if schema["type"] == "integer" else "a number"
     low, high = schema.get("minimum"), schema.get("maximum")
     if low is None and high is None:

@@ -21,18 +21,17 @@ namespace tread
     static constexpr const char *name        = "Archard map";
     static constexpr const char *description = "as Archard, with a coefficient by slip speed and pressure";
 
-    static void declare(dealii::ParameterHandler &section)
+    static void declare(Section &section)
     {
-      using namespace dealii::Patterns;
-      section.declare_entry(
-        "Map slip speeds (m per s)", "", List(Double(0., 1e3), 0, 100),
+      section.declare(
+        "Map slip speeds (m per s)", "", ListOf(Number(0., 1e3), 0, 100),
         "Of 'Wear law' Archard map: borders between ranges of the slip speed, from low to high.");
-      section.declare_entry(
-        "Map pressures over hardness", "", List(Double(0., 100.), 0, 100),
+      section.declare(
+        "Map pressures over hardness", "", ListOf(Number(0., 100.), 0, 100),
         "Of 'Wear law' Archard map: borders between ranges of the pressure over 'Hardness (MPa)', "
         "from low to high.");
-      section.declare_entry(
-        "Map wear coefficients", "", List(Double(0., 1.), 0, 10201),
+      section.declare(
+        "Map wear coefficients", "", ListOf(Number(0., 1.), 0, 10201),
         "Of 'Wear law' Archard map: those of all ranges of slip speed at the lowest pressures, then "
         "those at the next ones, and so on.");
     }

@@ -13,15 +13,14 @@ namespace tread
     static constexpr const char *name        = "Archard";
     static constexpr const char *description = "in proportion to pressure and sliding distance";
 
-    static void declare(dealii::ParameterHandler &section)
+    static void declare(Section &section)
     {
-      using dealii::Patterns::Double;
-      section.declare_entry(
-        "Wear coefficient", "1e-4", Double(1e-12, 1.),
+      section.declare(
+        "Wear coefficient", "1e-4", Number(1e-12, 1.),
         "Of 'Wear law' Archard: volume times hardness over normal force and distance. Measured "
         "ones of rail steel differ by a factor of a hundred with slip, pressure and lubrication.");
-      section.declare_entry("Hardness (MPa)", "2800", Double(100., 1e5),
-                            "Of 'Wear law' Archard, of the softer body.");
+      section.declare("Hardness (MPa)", "2800", Number(100., 1e5),
+                      "Of 'Wear law' Archard, of the softer body.");
     }
 
     static std::shared_ptr<const WearLaw> make(const dealii::ParameterHandler &section)

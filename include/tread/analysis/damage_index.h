@@ -2,7 +2,7 @@
 #ifndef tread_analysis_damage_index_h
 #define tread_analysis_damage_index_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <tread/base/section.h>
 
 #include <memory>
 #include <optional>
@@ -40,7 +40,7 @@ namespace tread
   {
     std::string key, about; ///< in summary.json
     /// Add the parameters that only this index has to the section `Damage`.
-    void (*declare)(dealii::ParameterHandler &section);
+    void (*declare)(Section &section);
     /// @param section with the values of its own parameters; null: it was not asked for
     std::shared_ptr<const DamageIndex> (*make)(const dealii::ParameterHandler &section);
   };
@@ -56,7 +56,7 @@ namespace tread
   const std::vector<DamageIndexEntry> &damage_indices();
 
   /// Add the parameters that single indices have to the section `Damage`, which was entered.
-  void declare_damage_indices(dealii::ParameterHandler &section);
+  void declare_damage_indices(Section &section);
 } // namespace tread
 
 #endif

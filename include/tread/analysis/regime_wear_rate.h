@@ -23,15 +23,14 @@ namespace tread
       "Mass that a surface loses for each metre rolled and square metre in contact, by T-gamma over area and "
       "'Damage/Regime borders (N per mm2)'";
 
-    static void declare(dealii::ParameterHandler &section)
+    static void declare(Section &section)
     {
-      using namespace dealii::Patterns;
-      section.declare_entry("Regime borders (N per mm2)", "10.4, 77.2", List(Double(0., 1e6), 0, 2),
-                            "T-gamma over the area in contact at which wear goes from mild to severe, and "
-                            "from severe to catastrophic; by default of a wheel of R8T on a rail of 900A.");
-      section.declare_entry("Regime slopes (ug per m N)", "5.3, 61.9", List(Double(0., 1e6), 0, 2),
-                            "Mass lost for each metre rolled and newton of T-gamma in the mild regime and, "
-                            "from the border on, in the catastrophic one; between them it stays.");
+      section.declare("Regime borders (N per mm2)", "10.4, 77.2", ListOf(Number(0., 1e6), 0, 2),
+                      "T-gamma over the area in contact at which wear goes from mild to severe, and "
+                      "from severe to catastrophic; by default of a wheel of R8T on a rail of 900A.");
+      section.declare("Regime slopes (ug per m N)", "5.3, 61.9", ListOf(Number(0., 1e6), 0, 2),
+                      "Mass lost for each metre rolled and newton of T-gamma in the mild regime and, "
+                      "from the border on, in the catastrophic one; between them it stays.");
     }
 
     static std::shared_ptr<const DamageIndex> make(const dealii::ParameterHandler &section)

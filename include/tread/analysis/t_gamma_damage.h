@@ -23,15 +23,14 @@ namespace tread
     static constexpr const char *about =
       "Damage of one passage by 'Damage/Function T-gammas (N)' and 'Function damages'";
 
-    static void declare(dealii::ParameterHandler &section)
+    static void declare(Section &section)
     {
-      using namespace dealii::Patterns;
-      section.declare_entry("Function T-gammas (N)", "", List(Double(0., 1e6), 0, 100),
-                            "Points of a function that says what damage a passage does by its T-gamma, from "
-                            "low to high; empty: none.");
-      section.declare_entry("Function damages", "", List(Double(-1e6, 1e6), 0, 100),
-                            "Damage of a passage at each of 'Function T-gammas (N)', linear between them; "
-                            "below 0 where wear takes cracks away.");
+      section.declare("Function T-gammas (N)", "", ListOf(Number(0., 1e6), 0, 100),
+                      "Points of a function that says what damage a passage does by its T-gamma, from "
+                      "low to high; empty: none.");
+      section.declare("Function damages", "", ListOf(Number(-1e6, 1e6), 0, 100),
+                      "Damage of a passage at each of 'Function T-gammas (N)', linear between them; "
+                      "below 0 where wear takes cracks away.");
     }
 
     static std::shared_ptr<const DamageIndex> make(const dealii::ParameterHandler &section)

@@ -2,7 +2,7 @@
 #ifndef tread_analysis_wear_law_h
 #define tread_analysis_wear_law_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <tread/base/section.h>
 
 #include <memory>
 #include <string>
@@ -37,7 +37,7 @@ namespace tread
   {
     std::string name, description;
     /// Add the parameters that only this law has to the section `Damage`.
-    void (*declare)(dealii::ParameterHandler &section);
+    void (*declare)(Section &section);
     /// @param section with the values of its own parameters; null: no wear
     std::shared_ptr<const WearLaw> (*make)(const dealii::ParameterHandler &section);
   };
@@ -46,7 +46,7 @@ namespace tread
   const std::vector<WearLawEntry> &wear_laws();
 
   /// Add the parameters that single laws have to the section `Damage`, which was entered.
-  void declare_wear_laws(dealii::ParameterHandler &section);
+  void declare_wear_laws(Section &section);
 } // namespace tread
 
 #endif

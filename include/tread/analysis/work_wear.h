@@ -14,10 +14,10 @@ namespace tread
     static constexpr const char *name        = "friction work";
     static constexpr const char *description = "in proportion to the work of friction";
 
-    static void declare(dealii::ParameterHandler &section)
+    static void declare(Section &section)
     {
-      section.declare_entry("Wear per work (mm3 per kJ)", "1", dealii::Patterns::Double(1e-9, 1e6),
-                            "Of 'Wear law' friction work: volume that each surface loses.");
+      section.declare("Wear per work (mm3 per kJ)", "1", Number(1e-9, 1e6),
+                      "Of 'Wear law' friction work: volume that each surface loses.");
     }
 
     static std::shared_ptr<const WearLaw> make(const dealii::ParameterHandler &section)

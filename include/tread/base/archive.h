@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <typeinfo>
 #include <vector>
 
 namespace tread
@@ -70,6 +71,9 @@ namespace tread
     {
       (keep_number(values), ...);
     }
+
+    /// What comes next belongs to something of this kind. @throws OtherLayout if what was stored does not
+    void kind(const std::type_info &type);
 
     /// Shares of sums over the ranks. On as many ranks as before each gets its own back; on others the first
     /// has the whole sum.

@@ -2,7 +2,6 @@
 #ifndef tread_contact_falling_friction_h
 #define tread_contact_falling_friction_h
 
-#include <tread/base/word_or_number.h>
 #include <tread/contact/friction_law.h>
 
 #include <cmath>
@@ -18,25 +17,23 @@ namespace tread
     /// Distance of a memory that is to be found by the scene, m.
     static constexpr double to_be_found = -1.;
 
-    static void declare(dealii::ParameterHandler &section)
+    static void declare(Section &section)
     {
-      using dealii::Patterns::Double;
       // Polach's A = 0.4 and B = 0.6 s/m for a dry rail, with the usual friction coefficient 0.5.
-      section.declare_entry("Kinetic friction coefficient", "0.2", Double(0., 2.),
-                            "Of laws that fall: at slip speeds far above the one below. Not above the "
-                            "friction coefficient.");
-      section.declare_entry(
-        "Falling slip speed (m per s)", "1.67", Double(1e-6, 1e6),
-        "Of laws that fall: where 63 % of the fall is over (falling, Stribeck), half of it "
-        "(rational) or all of it (linear).");
-      section.declare_entry(
-        "Friction memory (mm)", automatic, WordOrNumber(automatic, Double(0., 10.)),
+      section.declare("Kinetic friction coefficient", "0.2", Number(0., 2.),
+                      "Of laws that fall: at slip speeds far above the one below. Not above the "
+                      "friction coefficient.");
+      section.declare("Falling slip speed (m per s)", "1.67", Number(1e-6, 1e6),
+                      "Of laws that fall: where 63 % of the fall is over (falling, Stribeck), half of it "
+                      "(rational) or all of it (linear).");
+      section.declare(
+        "Friction memory (mm)", automatic, WordOrNumber(automatic, Number(0., 10.)),
         "Of laws that fall: a node's coefficient follows its slip speed over this way of "
         "slip. 0: at once, so that under high pressure slip begins to oscillate by itself. automatic: the "
         "shortest way that keeps slip from it, some micrometres, by load, law and creepage; 0 where none is "
         "needed.");
-      section.declare_entry("Least speed of memory (m per s)", "0.001", Double(0., 1e3),
-                            "Of laws that fall: nodes that slip more slowly forget at this speed.");
+      section.declare("Least speed of memory (m per s)", "0.001", Number(0., 1e3),
+                      "Of laws that fall: nodes that slip more slowly forget at this speed.");
     }
 
     double coefficient(const double slip_speed) const override

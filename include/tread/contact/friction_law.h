@@ -2,7 +2,7 @@
 #ifndef tread_contact_friction_law_h
 #define tread_contact_friction_law_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <tread/base/section.h>
 
 #include <memory>
 #include <string>
@@ -65,7 +65,7 @@ namespace tread
     static constexpr const char *name        = "Coulomb";
     static constexpr const char *description = "one coefficient for adhesion and slip";
 
-    static void declare(dealii::ParameterHandler &)
+    static void declare(Section &)
     {
     }
 
@@ -103,7 +103,7 @@ namespace tread
   {
     std::string name, description;
     /// Add the parameters that only this law has to the section of the contact.
-    void (*declare)(dealii::ParameterHandler &section);
+    void (*declare)(Section &section);
     /// @param coefficient without slip, which all laws have
     /// @param section with the values of its own parameters
     /// @throws std::invalid_argument with a line for the user
@@ -115,7 +115,7 @@ namespace tread
   const std::vector<FrictionLawEntry> &friction_laws();
 
   /// Add the parameters that single laws have to the section of the contact, which was entered.
-  void declare_friction_laws(dealii::ParameterHandler &section);
+  void declare_friction_laws(Section &section);
 
   /// The law of this name. @see FrictionLawEntry::make
   std::shared_ptr<const FrictionLaw> make_friction_law(const std::string              &name,

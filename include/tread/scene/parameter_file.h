@@ -2,12 +2,12 @@
 #ifndef tread_scene_parameter_file_h
 #define tread_scene_parameter_file_h
 
+#include <tread/base/parameter_table.h>
 #include <tread/scene/files_read.h>
-
-#include <deal.II/base/parameter_handler.h>
 
 #include <filesystem>
 #include <iosfwd>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,10 +18,10 @@ namespace tread
   class ParameterFile
   {
   public:
-    /// Declared entries with their values, of which laws and indices of damage take their own.
-    dealii::ParameterHandler &entries() const
+    /// Parameters that sections declare, of which laws and indices of damage take their own.
+    ParameterTable &table() const
     {
-      return handler;
+      return declared;
     }
 
     /// Read a file (none: all defaults) with those that its lines "include NAME" name, relative to its
@@ -31,19 +31,24 @@ namespace tread
     /// @throws InputError where one parameter is given twice, of which one value would be lost.
     static void refuse_repeated(const std::vector<std::string> &settings);
 
-    struct Parameter
+    struct Setting
     {
-      std::string path, value; ///< Section/Name
+      std::string path, value;      ///< Section/Name
+      bool        is_given = false; ///< by a file or -s
     };
     /// All, in the order of declaration.
-    std::vector<Parameter> values() const;
+    std::vector<Setting> values() const;
     /// Those that are not what they are without being set.
-    std::vector<Parameter> changed_values() const;
+    std::vector<Setting> changed_values() const;
+    /// Whether two texts are the same, or the same number.
+    static bool same_value(const std::string &a, const std::string &b);
 
     /// All parameters with their values, units, ranges and meaning, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
     /// The same as deal.II's JSON: of each the value, the default, the documentation and the pattern.
     void print_json(std::ostream &out) const;
+    /// A JSON schema (draft 2020-12) of all of them, of a scene as {"Section": {"Name": value}}.
+    void print_schema(std::ostream &out) const;
     /// parameters.prm of a run: all parameters, and the files that it has read.
     std::string of_run() const;
 
@@ -63,10 +68,10 @@ namespace tread
     void parse(const std::string &file, const unsigned int depth = 0);
     void set(const std::string &setting);
 
-    mutable dealii::ParameterHandler handler;
-    std::filesystem::path            folder; ///< of the parameter file
-    std::vector<FileRead>            read_files;
-    bool                             sets_something = false; ///< the parameter file, or one that it includes
+    mutable ParameterTable declared;
+    std::filesystem::path  folder; ///< of the parameter file
+    std::vector<FileRead>  read_files;
+    std::set<std::string>  given; ///< paths of parameters that a file or a setting sets
   };
 } // namespace tread
 

@@ -93,7 +93,7 @@ namespace tread
     }
     /// All parameters of a scene with this parameter file, in the order of declaration. Only names and ranges
     /// are checked. @throws InputError, also for a file that sets nothing
-    static std::vector<ParameterFile::Parameter> parameters_in(const std::string &file);
+    static std::vector<ParameterFile::Setting> parameters_in(const std::string &file);
     /// Those among the changed ones that another parameter leaves without effect, one line each, with what
     /// they need.
     std::vector<std::string> unused_parameters() const;

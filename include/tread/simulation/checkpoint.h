@@ -55,10 +55,15 @@ namespace tread
     Content last_content();
     /// What follows the first line of a slot, on all ranks.
     std::string content_of(const std::string &name) const;
-    /// All parameters but those of the output, of which only the columns of tables that grow must stay.
+    /// Parameters with which a run must go on: not those of what is written, of which only the columns of
+    /// tables that grow stay, and not those of what is found at its end.
+    std::vector<ParameterFile::Setting> settings_that_stay() const;
+    /// They, and checksums of the files that were read, as JSON.
     std::string parameters() const;
-    std::string damaged() const; ///< what is said of the file that was read
-    /// @throws InputError with the first line that differs.
+    /// Of the run in the folder. @throws InputError. Of rank 0 alone.
+    std::vector<ParameterFile::Setting> parameters_of_run() const;
+    std::string                         damaged() const; ///< what is said of the file that was read
+    /// @throws InputError with the first one that differs.
     void require_same_parameters(const std::string &of_checkpoint) const;
 
     RunFolder   &folder;

@@ -113,8 +113,6 @@ namespace tread
   private:
     /// @throws InputError if mass was added to more than the few finest cells. Collective.
     void check_added_mass() const;
-    void add_supports();
-    void add_friction_that_varies();
   };
 } // namespace tread
 

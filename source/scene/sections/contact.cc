@@ -7,64 +7,62 @@
 
 namespace tread
 {
-  void ContactSection::declare(dealii::ParameterHandler &handler)
+  void ContactSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    Section section(handler, "Contact");
+    Section section(table, "Contact");
     // Of the tables of factors, whose columns are parameters of their own.
     constexpr unsigned int most_rows   = 10000;
     const auto             add_factors = [&](const std::string &name, std::vector<double> &factors,
                                  const std::string &of_these) {
       section.add(name, factors,
                               "Factors on the friction coefficient at these " + of_these + ", one for each.",
-                              Double(0., 100.), most_rows);
+                              Number(0., 100.), most_rows);
     };
 
     section.add("Friction coefficient", friction_coefficient,
                 "Without slip; that of Coulomb's law is the same at any slip speed. 0 is frictionless.",
-                Double(0., 2.));
+                Number(0., 2.));
     section.choose("Friction law", friction_law, friction_laws(),
                    "How the friction coefficient depends on the slip speed of each node.");
-    declare_friction_laws(handler);
+    declare_friction_laws(section);
     section.add(
       "Friction places (mm)", friction_places,
       "Where along the rail the friction coefficient is multiplied by 'Friction factors': x, ascending, "
       "separated by commas; linear in between, constant beyond. As for leaves or a lubricated spot.",
-      Double(-1e6, 1e6), most_rows);
+      Number(-1e6, 1e6), most_rows);
     add_factors("Friction factors", friction_factors, "places");
     section.add("Friction pressures (MPa)", friction_pressures,
                 "Pressures of a node at which its friction coefficient is multiplied by 'Friction pressure "
                 "factors': ascending, separated by commas; linear in between, constant beyond. As for layers "
                 "that shear at a limit, or elastic asperities.",
-                Double(0., 1e6), most_rows);
+                Number(0., 1e6), most_rows);
     add_factors("Friction pressure factors", pressure_factors, "pressures");
     section.add("Friction temperatures (C)", temperatures,
                 "Temperatures of the surfaces at which the friction coefficient is multiplied by 'Friction "
                 "temperature factors': ascending, separated by commas; linear in between, constant beyond. "
                 "'Damage/Rail temperature (C)' and 'Wheel temperature (C)' are those before friction heats "
                 "them; needs 'Damage/Record'.",
-                Double(-100., 1500.), most_rows);
+                Number(-100., 1500.), most_rows);
     add_factors("Friction temperature factors", temperature_factors, "temperatures");
     section.add(
       "Friction across (mm)", across_places,
       "Where across the rail the friction coefficient is multiplied by 'Friction across factors': y from "
       "the middle of the rail's top, the gauge side at y < 0; ascending, separated by commas; linear in "
       "between, constant beyond. As for a lubricated gauge corner.",
-      Double(-200., 200.), most_rows);
+      Number(-200., 200.), most_rows);
     add_factors("Friction across factors", across_factors, "places");
     section.add(
       "Friction inclinations (deg)", inclinations,
       "The same by the inclination of the rail's surface in the track, positive where it falls to the "
       "gauge side: 0 on the top, 60 to 80 on the gauge face.",
-      Double(-90., 90.), most_rows);
+      Number(-90., 90.), most_rows);
     add_factors("Friction inclination factors", inclination_factors, "inclinations");
     section.add(
       "Tolerance", tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
-      Double(1e-15, 0.1));
+      Number(1e-15, 0.1));
     section.add("Largest number of sweeps", max_sweeps, "Limit of the sweeps in one time step.",
-                Integer(1, 100000));
+                WholeNumber(1, 100000));
   }
 
 

@@ -5,10 +5,9 @@
 
 namespace tread
 {
-  void DamageSection::declare(dealii::ParameterHandler &handler)
+  void DamageSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Damage");
+    Section section(table, "Damage");
 
     section.add(
       "Record", record,
@@ -17,28 +16,28 @@ namespace tread
       "wear of all steps; doc/damage.md.");
     section.choose("Wear law", wear_law, wear_laws(),
                    "What a surface loses where the other one slides over it.");
-    declare_wear_laws(handler);
+    declare_wear_laws(section);
     section.add("Thermal conductivity (W per m K)", conductivity,
-                "Of wheel and rail, for the flash temperature.", Double(1e-3, 1e4));
+                "Of wheel and rail, for the flash temperature.", Number(1e-3, 1e4));
     section.add("Heat capacity (J per kg K)", heat_capacity,
-                "Of wheel and rail, likewise; with 'Density (kg per m3)', not scaled.", Double(1e-3, 1e6));
+                "Of wheel and rail, likewise; with 'Density (kg per m3)', not scaled.", Number(1e-3, 1e6));
     section.add(
       "Heat share of the wheel", wheel_share, "automatic",
       "Of the heat of friction, the rest flows into the rail. automatic: so that both surfaces have one "
       "temperature, half for like steels.",
-      Double(0., 1.));
+      Number(0., 1.));
     section.add("Rail temperature (C)", rail_temperature,
                 "Of the rail before the wheel comes, for 'Contact/Friction temperatures (C)'.",
-                Double(-100., 1000.));
+                Number(-100., 1000.));
     section.add(
       "Wheel temperature (C)", wheel_temperature,
       "Of the wheel's surface before it comes into contact, likewise, as by braking on the tread. "
       "Surfaces of unlike temperature take one between in the patch at once, by their effusivities.",
-      Double(-100., 1000.));
+      Number(-100., 1000.));
     section.add("Shear strength (MPa)", shear_strength,
                 "Yield stress in shear of the rail, for the surface fatigue index and the shakedown map. 0: "
                 "'Rail/Yield stress (MPa)' over the root of 3 where that is given, else there are none.",
-                Double(0., 1e5));
-    declare_damage_indices(handler);
+                Number(0., 1e5));
+    declare_damage_indices(section);
   }
 } // namespace tread

@@ -172,42 +172,41 @@ namespace tread
   }
 
 
-  void DefectSection::declare(dealii::ParameterHandler &handler)
+  void DefectSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Defect");
+    Section section(table, "Defect");
 
     section.choose("Shape", shape, defect_shapes());
     section.add("Position (mm)", position,
                 "x of the leading edge of the defect. 'Motion/Start' and 'Rolled distance' say where the "
                 "wheel starts and ends.",
-                Double(-1e5, 1e5));
+                Number(-1e5, 1e5));
     section.add(
       "Length (mm)", length,
       "Length of the defect along the rail. A profile or a map is stretched to it; 0: as in the file.",
-      Double(0., 1e4));
+      Number(0., 1e4));
     section.add(
       "Width (mm)", width,
       "Width of the defect across the rail. 0: a dip is as wide as it is long, a map as in its file.",
-      Double(0., 200.));
+      Number(0., 200.));
     section.add("Depth (mm)", depth,
                 "Depth of the deepest point; of corrugation, from crests to troughs. A profile or a map is "
                 "scaled to it; 0: as in the file.",
-                Double(0., 1e3 * deepest));
+                Number(0., 1e3 * deepest));
     section.add("Lateral position (mm)", lateral_position,
                 "y of the middle of the defect, along the rail's top; the gauge side is y < 0.",
-                Double(-50., 50.));
+                Number(-50., 50.));
     section.add("Rounded leading edge (mm)", leading_rounding,
                 "Length over which the kink at the beginning of a dip is rounded. 0: a sharp edge.",
-                Double(0., 1000.));
+                Number(0., 1000.));
     section.add("Rounded trailing edge (mm)", trailing_rounding,
                 "Length over which the kink at the end of a dip is rounded. 0: a sharp edge.",
-                Double(0., 1000.));
-    section.add("Wavelength (mm)", wavelength, "Wavelength of corrugation.", Double(0., 1000.));
+                Number(0., 1000.));
+    section.add("Wavelength (mm)", wavelength, "Wavelength of corrugation.", Number(0., 1000.));
     section.add("Ramp (mm)", ramp,
                 "Length over which the heights of a profile, a map or corrugation grow from 0 at the "
                 "beginning and fade to 0 at the end. 0: none.",
-                Double(0., 1e4));
+                Number(0., 1e4));
     section.add(
       "Profile file", profile_file,
       "Of a profile: columns x and z in mm, z up; depth is counted from the straight line between the ends, "
@@ -216,13 +215,13 @@ namespace tread
       "y_mm (n_y), z_mm (n_y, n_x); z is the height over the surface without the defect, y is counted from "
       "the middle of the rail's top, the first x lies at Position. Looked for in the present folder and "
       "beside the parameter file.",
-      dealii::Patterns::Anything());
+      AnyText());
     section.choose("Lateral law", lateral_law, "Of a profile or corrugation.");
     section.add("Reversed", reversed, "true: a profile or a map is rolled over from its other end.");
     section.add("Repeated at (mm)", repeated_at,
                 "x of the leading edges of further defects of the same shape, separated by commas, at least "
                 "the defect's length apart. Defects that differ fit into one map.",
-                Double(-1e5, 1e5), 1000);
+                Number(-1e5, 1e5), 1000);
   }
 
 

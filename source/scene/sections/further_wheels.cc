@@ -9,11 +9,10 @@ namespace tread
   } // namespace
 
 
-  void FurtherWheelsSection::declare(dealii::ParameterHandler &handler)
+  void FurtherWheelsSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
     constexpr double tiny = 1e-12; // for "above 0"
-    Section          section(handler, "Further wheels");
+    Section          section(table, "Further wheels");
 
     section.add(
       "Distances (mm)", distances,
@@ -21,12 +20,12 @@ namespace tread
       "They are like the first wheel, with the same load, speed and rolled distance, and roll on the "
       "same rail at the same time. A distance of whole finest cells gives each the same mesh. "
       "Empty: there is one wheel.",
-      Double(tiny, 1e5), most_wheels);
+      Number(tiny, 1e5), most_wheels);
     section.add(
       "Traction coefficients", traction_coefficients,
       "One for each further wheel, separated by commas. Empty: that of the first one. Without meaning "
       "where 'Motion/Creepage' prescribes the motion of all wheels.",
-      Double(-2., 2.), most_wheels);
+      Number(-2., 2.), most_wheels);
   }
 
 

@@ -3,10 +3,9 @@
 
 namespace tread
 {
-  void GeneralSection::declare(dealii::ParameterHandler &handler)
+  void GeneralSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Scene");
+    Section section(table, "Scene");
 
     section.add("Title", title, "What the scene shows; printed and kept in the summary.");
     section.add("Quasi-static", quasi_static,
@@ -16,7 +15,7 @@ namespace tread
       "Density scale", density_scale,
       "Factor on the density of the cells: the time step grows with its square root, the error of rolling "
       "inertia like (speed / wave speed)^2. 1 to 100; above 1 only for quasi-static scenes.",
-      Double(1., 100.));
+      Number(1., 100.));
     section.add("Reproducible", reproducible,
                 "true: all results are the same to the last bit on any number of ranks, also when a run is "
                 "resumed on another number. Forces are then rounded to 1.5e-8 N, and every rank solves the "

@@ -14,10 +14,9 @@ namespace tread
   }
 
 
-  void GuidanceSection::declare(dealii::ParameterHandler &handler)
+  void GuidanceSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Guidance");
+    Section section(table, "Guidance");
 
     section.choose("Kind", kind,
                    "How a wheelset in a position ('Wheelset') moves across its track and yaws:");
@@ -30,26 +29,26 @@ namespace tread
     section.add("Lateral stiffness (MN per m)", springs.stiffness,
                 "Lateral stiffness between the wheelset and a frame that runs along with it; the force "
                 "counts from the position at the start.",
-                Double(0.));
+                Number(0.));
     section.add("Lateral damping (kN s per m)", springs.damping,
-                "Damping of the lateral velocity relative to that frame.", Double(0.));
+                "Damping of the lateral velocity relative to that frame.", Number(0.));
     section.add("Lateral force (kN)", springs.force, "balance",
                 "Constant lateral force on the wheelset, positive towards the side of the modelled wheel. "
                 "balance: the force that holds the wheelset in place at the start.",
-                Double());
+                Number());
     section.add("Yaw stiffness (MN m per rad)", springs.yaw_stiffness,
                 "Yaw stiffness relative to that frame; the moment counts from the yaw at the start.",
-                Double(0.));
-    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Damping of the yaw rate.", Double(0.));
+                Number(0.));
+    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Damping of the yaw rate.", Number(0.));
     section.add("Yaw moment (kN m)", springs.moment, "balance",
                 "Constant yaw moment on the wheelset. balance: the moment that holds the wheelset in place "
                 "at the start.",
-                Double());
+                Number());
     section.add(
       "Yaw inertia (kg m2)", yaw_inertia,
       "Of the wheelset about the vertical, and about x where both wheels are meshed, without the wheels' "
       "cells. 0: on springs the yaw is held.",
-      Double(0.));
+      Number(0.));
   }
 
 

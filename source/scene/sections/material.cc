@@ -19,45 +19,44 @@ namespace tread
 
   void MaterialSection::declare(Section &section)
   {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    constexpr double tiny = 1e-12; // for "above 0"
-    section.add("Young's modulus (GPa)", young_modulus, "Young's modulus.", Double(1e-3, 1e4));
-    section.add("Poisson's ratio", poisson_ratio, "Poisson's ratio, from 0 to 0.49.", Double(0., 0.49));
+    constexpr double  tiny = 1e-12; // for "above 0"
+    const std::string zone = AnyText::number() + "(:" + AnyText::number() + "){4}";
+    section.add("Young's modulus (GPa)", young_modulus, "Young's modulus.", Number(1e-3, 1e4));
+    section.add("Poisson's ratio", poisson_ratio, "Poisson's ratio, from 0 to 0.49.", Number(0., 0.49));
     section.add("Density (kg per m3)", density, "Density, which gives the cells their inertia.",
-                Double(1., 1e5));
+                Number(1., 1e5));
     section.add(
       "Yield stress (MPa)", yield_stress,
       "Von Mises stress at which the material first yields. 0: elastic. The static load may well exceed it.",
-      Double(0.));
+      Number(0.));
     section.add("Tangent modulus (GPa)", tangent_modulus,
                 "Slope of the uniaxial stress over strain beyond yield, for isotropic and kinematic "
                 "hardening. From 0 "
                 "to below Young's modulus.",
-                Double(0.));
+                Number(0.));
     section.choose("Hardening", hardening);
     section.add("Backstress moduli (GPa)", backstress_moduli,
                 "For Armstrong-Frederick hardening: modulus C of each backstress, separated by commas, in da "
                 "= 2/3 C de - gamma a dp.",
-                Double(0.), PlasticMaterial::max_backstresses);
+                Number(0.), PlasticMaterial::max_backstresses);
     section.add("Backstress recoveries", backstress_recoveries,
                 "For Armstrong-Frederick hardening: recovery gamma of each backstress, without a unit; the "
                 "backstress saturates at C/gamma.",
-                Double(0.), PlasticMaterial::max_backstresses);
+                Number(0.), PlasticMaterial::max_backstresses);
     section.add("Plastic depth (mm)", plastic_depth,
                 "Depth under the contact path down to which cells can yield; those below stay elastic and "
                 "cost less. One patch length is enough.",
-                Double(tiny));
+                Number(tiny));
     section.add("Plastic half width (mm)", plastic_half_width,
                 "Distance from the middle of the path, to both sides, within which cells can yield.",
-                Double(tiny));
+                Number(tiny));
     section.add(
       "Plastic zones", plastic_zones,
       "Parts with another yield stress, such as a weld or a hardened layer: begin and end along the path "
       "(mm; of the wheel along the tread, from where it touches at the start), depth (mm), yield stress "
       "(MPa), tangent modulus (GPa), separated by colons, as in -30:-20:8:400:21. Several: separated by "
       "commas; where they overlap the last counts.",
-      Anything());
+      AnyText(form_of_zones, "^(" + zone + "(," + zone + ")*,?)?\\s*$"));
   }
 
 
@@ -98,8 +97,7 @@ namespace tread
             values.clear();
           }
         require(values.size() == 5,
-                "'" + section + "/Plastic zones' cannot be '" + text +
-                  "'; allowed: begin:end:depth:yield stress:tangent modulus, in mm, MPa and GPa");
+                "'" + section + "/Plastic zones' cannot be '" + text + "'; allowed: " + form_of_zones);
         list.push_back(
           {1e-3 * values[0], 1e-3 * values[1], 1e-3 * values[2], 1e6 * values[3], 1e9 * values[4]});
       }

@@ -16,51 +16,49 @@ namespace tread
   }
 
 
-  void MeshSection::declare(dealii::ParameterHandler &handler)
+  void MeshSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    Section section(handler, "Mesh");
+    Section section(table, "Mesh");
 
     section.add("Finest cell (mm)", finest_cell,
                 "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
                 "pressure's error shrinks in proportion to it, or a little faster.",
-                Double(0.02, 20.));
+                Number(0.02, 20.));
     section.add("Fine half width (mm)", fine_half_width,
                 "Half width of the zone of finest cells, from the middle of the patch; contact must stay "
                 "inside. 0: as wide as the patch under the static load needs, and 1.35 times as wide in a "
                 "scene that is not quasi-static, whose load may double.",
-                Double(0., 500.));
+                Number(0., 500.));
     section.add("Fine layers", fine_layers,
                 "Number of layers of finest cells under the surface; even numbers fit the octree.",
-                Integer(1, 64));
+                WholeNumber(1, 64));
     section.add("Cells per level", cells_per_level,
-                "Least number of cells of each larger size before the size doubles again.", Double(1., 32.));
+                "Least number of cells of each larger size before the size doubles again.", Number(1., 32.));
     section.add("Level depth (semi-axes)", level_depth,
                 "Least thickness of the layers of larger cells below the finest ones, over Hertz's mean "
                 "semi-axis: of cells of twice the size, four times the size, and so on. So the error of the "
                 "graded mesh shrinks with the finest cell; with 0, where 'Cells per level' alone counts, "
                 "bodies are about 1 % too stiff at any finest cell, and cells below 0.7 mm are fewer.",
-                Double(0., 10.));
+                Number(0., 10.));
     section.add(
       "Coarsest cell (mm)", coarsest_cell,
       "Upper bound of the coarse blocks' edges, not below the finest cell; a rail head, being curved, "
       "takes 12.5 mm if that is less.",
-      Double(0.1, 500.));
+      Number(0.1, 500.));
     section.add(
       "Fine from (mm)", fine_from,
       "From here to 'Fine to', counted from the leading edge of the defect ('Defect/Position'), cells under "
       "the path are cubes; elsewhere they are as long as 'Path cell' says. Both 0: the whole path.",
-      Double(-1e5, 1e5));
-    section.add("Fine to (mm)", fine_to, "End of that range; see 'Fine from (mm)'.", Double(-1e5, 1e5));
+      Number(-1e5, 1e5));
+    section.add("Fine to (mm)", fine_to, "End of that range; see 'Fine from (mm)'.", Number(-1e5, 1e5));
     section.add("Path cell (mm)", path_cell,
                 "Largest length along the path of cells outside 'Fine from' to 'Fine to'; from twice the "
                 "finest cell on they are as many levels of the octree coarser. Saves cells and time steps "
                 "where the wheel only has to arrive, but the contact force ripples as it rolls over "
                 "large cells: at most half a semi-axis. 0: the finest cell.",
-                Double(0., 100.));
+                Number(0., 100.));
     section.add("Longest row (mm)", longest_row,
-                "Largest length of the coarse cells of a full section beside the path.", Double(1., 1000.));
+                "Largest length of the coarse cells of a full section beside the path.", Number(1., 1000.));
     section.choose(
       "Window", window,
       "Keep cells fine only about the wheel: when it has rolled 'Window length', the run goes on with a "
@@ -73,12 +71,12 @@ namespace tread
       "longer by the fourth root of 'Scene/Density scale'. The mesh also changes just before the cubes of "
       "'Fine from (mm)' come and when those of 'Fine to (mm)' have gone, unless that is nearer to another "
       "change, or to an end of the way, than a third of this.",
-      Double(0., 1e5));
+      Number(0., 1e5));
     section.add(
       "Window margin (mm)", window_margin,
       "Length of the finest cells before and behind the wheel at a change. 0: 1.75 semi-axes and two "
       "cells.",
-      Double(0., 1e4));
+      Number(0., 1e4));
   }
 
 

@@ -19,37 +19,35 @@ namespace tread
   }
 
 
-  void MotionSection::declare(dealii::ParameterHandler &handler)
+  void MotionSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
     constexpr double tiny = 1e-12; // for "above 0"
-    Section          section(handler, "Motion");
+    Section          section(table, "Motion");
 
     section.add("Speed (km per h)", speed, "Speed of the wheel's centre, constant along x. At least 0.1.",
-                Double(0., 1000.));
+                Number(0., 1000.));
     section.add("Start (mm)", start, "automatic",
                 "x of the wheel at the start. automatic: minus the rolled distance, so that the solution "
                 "instant is at x = 0. A number "
                 "keeps the wheel, the rail with its supports and a defect in their places when the rolled "
                 "distance is changed.",
-                Double(-1e5, 1e5));
+                Number(-1e5, 1e5));
     section.add(
       "Rolled distance (mm)", rolled_distance,
       "From the start to the solution instant; the run ends half a finest cell after it, over which the "
       "patch is averaged. The tangential solution needs one and a half to two patch lengths to become "
       "steady, and three to four if 'Start/Tractions' is none.",
-      Double(tiny, 10000.));
+      Number(tiny, 10000.));
     section.add(
       "Longest distance (mm)", longest_distance,
       "The rail and the wheel are meshed for so much way, so that --resume may go on from the end of "
       "a run with a longer rolled distance; an automatic start is minus this distance then. 0: for "
       "the rolled distance alone.",
-      Double(0., 10000.));
+      Number(0., 10000.));
     section.choose("Drive", drive);
     section.add("Traction coefficient", traction_coefficient,
                 "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
-                Double(-2., 2.));
+                Number(-2., 2.));
     section.add(
       "Creepage", creepage, "predicted",
       "(angular velocity x radius - speed) / speed, counted from free rolling, positive when "
@@ -57,34 +55,34 @@ namespace tread
       "half-space theory gives for the traction coefficient. Where 'Wheelset' has a position the radius is "
       "'Wheel/Radius (mm)', which the wheel may roll on nowhere, and the creepage counts from zero: that "
       "at each patch is in the table of patches.",
-      Double(-0.2, 0.2));
+      Number(-0.2, 0.2));
     section.add(
       "Lateral creepage", lateral_creepage,
       "Lateral velocity of the wheel relative to the rail / speed, towards +y. The axle stays upright and on "
       "its line: the surfaces slide over each other as if it did not (CONTACT's module 3). Where 'Wheelset' "
       "has a position: "
       "of the wheelset to its own side, in that position, besides what follows from it.",
-      Double(-0.2, 0.2));
+      Number(-0.2, 0.2));
     section.add(
       "Spin (1 per m)", spin,
       "Angular velocity of the wheel relative to the rail about z (upwards) / speed, imposed likewise: under "
       "the middle of the wheel it slides by nothing, ahead of it towards +y if positive. The spin of a "
       "tapered tread comes by itself.",
-      Double(-10., 10.));
+      Number(-10., 10.));
     section.add(
       "Hold distance (mm)", hold_distance,
       "Distance that is rolled at the prescribed creepage before the torque acts, which saves a long run-in.",
-      Double(0., 10000.));
+      Number(0., 10000.));
     section.add(
       "Angular velocity (rad per s)", angular_velocity, "by the drive",
       "Of the wheel about its axle, positive rolling forward, for a wheelset in a given position "
       "('Wheelset'). A number selects the drive angular velocity and puts the wheel into the track.",
-      Double(0., 1e5));
+      Number(0., 1e5));
     section.add("Passages", passages,
                 "Number of wheel passes: new wheels that roll over the same rail one after the other, while "
                 "the rail keeps its stress and strain. Above 1, passages.csv has a row for each pass. The "
                 "cost grows in proportion.",
-                Integer(1, 10000));
+                WholeNumber(1, 10000));
   }
 
 

@@ -15,52 +15,51 @@ namespace tread
   }
 
 
-  void OutputSection::declare(dealii::ParameterHandler &handler)
+  void OutputSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    Section section(handler, "Output");
+    Section           section(table, "Output");
+    const std::string triple = AnyText::number() + "," + AnyText::number() + "," + AnyText::number(false);
 
     section.add("Directory", directory, "Folder of the results; --output overrides it.");
     section.add("History interval (mm)", history_interval, "Rolled distance between rows of history.csv.",
-                Double(1e-3));
+                Number(1e-3));
     section.add("Supports", supports,
                 "Numbers of the supports whose forces history.csv has, separated by commas; empty: those "
                 "beside the path of the wheel.",
-                dealii::Patterns::List(Integer(-1000, 1000), 0, 1000));
+                WholeNumber(-1000, 1000), 1000);
     section.add(
       "Cells", cells,
       "Cells of the rail whose von Mises stress and equivalent plastic strain cells.csv has, a row for each "
       "of history.csv: x,y,depth in mm of a point in each, depth below the running surface, separated by "
       "semicolons, as in -20,0,1.5; -20,0,4. Empty: none.",
-      dealii::Patterns::Anything());
+      AnyText(form_of_cells, "^(" + triple + "(;" + triple + ")*;?)?\\s*$"));
     section.add("Strip half width (mm)", strip_half_width,
                 "Half width of the band of rail under the running wheel, to both sides of the first contact, "
                 "in which strip.csv lists the largest von Mises stress that the cells have seen along the "
                 "path, sampled once per History interval. 0: no table.",
-                Double(0.));
+                Number(0.));
     section.add("Surface interval (mm)", surface_interval,
                 "Rolled distance between pictures of the contact surface, with a table of all their patches, "
                 "patches.csv; 0: a picture of the solution instant only.",
-                Double(0.));
+                Number(0.));
     section.add(
       "Patch interval (mm)", patch_interval,
       "Rolled distance between the instants of patches.csv, with or without pictures: the table alone "
       "costs next to nothing. 0: as the pictures.",
-      Double(0.));
+      Number(0.));
     section.add("Volume interval (mm)", volume_interval,
-                "Rolled distance between pictures of the bodies; 0: the solution instant only.", Double(0.));
+                "Rolled distance between pictures of the bodies; 0: the solution instant only.", Number(0.));
     section.add(
       "Table depth (mm)", table_depth,
       "At the solution instant rail_cells.csv lists stress and plastic strain of the rail's cells under the "
       "contact path down to this depth, and rail_surface.csv the displacement of its surface. 0: neither.",
-      Double(0.));
+      Number(0.));
     section.add("Write volume", write_volume, "Whether pictures of the bodies are written at all.");
     section.choose("Pictures", pictures, "Format of the pictures for ParaView.");
     section.add("Checkpoint interval (minutes)", checkpoint_interval,
                 "Wall time between checkpoints, from which --resume goes on, the first one after a start of "
                 "more than a minute; 0: only when "
                 "interrupted.",
-                Double(0.));
+                Number(0.));
   }
 } // namespace tread

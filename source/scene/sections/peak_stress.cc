@@ -16,24 +16,23 @@ namespace tread
   }
 
 
-  void PeakStressSection::declare(dealii::ParameterHandler &handler)
+  void PeakStressSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Peak stress");
+    Section section(table, "Peak stress");
 
     section.choose("Region", place,
                    "peak_stress.csv lists, for each layer of cells of the rail in a region and for the "
                    "surface, the largest von Mises stress of all steps with its place and instant, "
                    "peak_stress_wheel.csv those of the tread of the first wheel that rolls over it.");
-    section.add("From (mm)", from, "x of the beginning of a range.", Double(-1e5, 1e5));
-    section.add("To (mm)", to, "x of the end of a range.", Double(-1e5, 1e5));
+    section.add("From (mm)", from, "x of the beginning of a range.", Number(-1e5, 1e5));
+    section.add("To (mm)", to, "x of the end of a range.", Number(-1e5, 1e5));
     section.add("Half width (mm)", half_width,
                 "Half width of the region, to both sides of the first contact, or of the path of a wheelset "
                 "in a position: of the largest patch of its own wheel, on slices of the piece that carries "
                 "most in the range; 0: that of the patch under "
                 "the static load, and of a dip's trailing edge no more than to where it runs along the path "
                 "as much as across it.",
-                Double(0., 100.));
-    section.add("Depth (mm)", depth, "Depth of the region below the surface.", Double(0.1, 100.));
+                Number(0., 100.));
+    section.add("Depth (mm)", depth, "Depth of the region below the surface.", Number(0.1, 100.));
   }
 } // namespace tread

@@ -3,37 +3,36 @@
 
 namespace tread
 {
-  void ProfileWearSection::declare(dealii::ParameterHandler &handler)
+  void ProfileWearSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Profile wear");
+    Section section(table, "Profile wear");
 
     section.add("Passages", passages,
                 "Of 'tread wear': wheels that pass the rail. 0: the rail keeps its profile.",
-                Double(0., 1e12));
+                Number(0., 1e12));
     section.add(
       "Wheel turns", turns,
       "Of 'tread wear': turns of the wheel meanwhile. 0: the wheel keeps its profile, as if each that "
       "passes were new.",
-      Double(0., 1e12));
+      Number(0., 1e12));
     section.add(
       "Smoothing length (mm)", smoothing,
       "Wear of a step is spread along the profile so that half is left of its waves of this length. Shorter "
       "waves cannot grow.",
-      Double(0., 50.));
-    section.add("Point distance (mm)", spacing, "Of the points by which profiles wear.", Double(0.01, 1.));
+      Number(0., 50.));
+    section.add("Point distance (mm)", spacing, "Of the points by which profiles wear.", Number(0.01, 1.));
     section.add(
       "Largest change", change,
       "Largest share by which a step may change the distribution of the normal force across the rail, as "
       "the mean over the contacts: it sets the steps.",
-      Double(0.001, 1.));
+      Number(0.001, 1.));
     section.add(
       "Smallest step (um)", least_step,
       "A step is not made shorter than by this largest depth, whatever it changes, such as where a contact "
       "jumps from one place to another.",
-      Double(1e-4, 100.));
+      Number(1e-4, 100.));
     section.add("States", states, "States that are kept, at even distances, beside that of the start.",
-                dealii::Patterns::Integer(1, 1000));
+                WholeNumber(1, 1000));
   }
 
 

@@ -74,12 +74,9 @@ namespace tread
   }
 
 
-  void RailSection::declare(dealii::ParameterHandler &handler)
+  void RailSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    Section section(handler, "Rail");
+    Section section(table, "Rail");
 
     section.choose("Shape", shape);
     section.choose(
@@ -93,34 +90,34 @@ namespace tread
       "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
       "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. At least 12 mm to each side of the "
       "middle; contact must lie within. Empty: a new rail.",
-      Anything());
+      AnyText());
     section.add("Measured head mirrored", head_placement.is_mirrored,
                 "true: the sign of y in the file is reversed, for files with the gauge side at y > 0.");
     section.add("Measured head shift (mm)", head_placement.shift,
                 "Added to the file's y, after mirroring: where its y = 0 lies from the rail's middle line.",
-                Double(-200., 200.));
+                Number(-200., 200.));
     section.add(
       "Smoothing length (mm)", head_placement.smoothing,
       "Of the file 'Rail/Measured head': a smoothing spline leaves half of waves of this length along the "
       "surface, 6 % of those half as long and 94 % of those twice as long. Instruments need some "
       "millimetres; how far it moves the points is printed. 0: none.",
-      Double(0., 50.));
+      Number(0., 50.));
     section.add("Slices", slices,
                 "File with the slices of 'Shape' slices, such as a crossing: a .slcs of CONTACT or a table, "
                 "doc/crossing.md. Blocks are 'Wheel/Sector thickness (mm)' thick.",
-                Anything());
+                AnyText());
     section.add("Slices place (mm)", slices_place, "Place along the slices that lies at x = 0 of the scene.",
-                Double(-1e6, 1e6));
+                Number(-1e6, 1e6));
     section.add("Slices y (mm)", slices_y,
                 "Where y = 0 of the slices lies, from the middle of the track to the own side.",
-                Double(-3000., 3000.));
+                Number(-3000., 3000.));
     section.add("Slices z (mm)", slices_z, "Where z = 0 of the slices lies, over the tops of the rails.",
-                Double(-1000., 1000.));
+                Number(-1000., 1000.));
     section.add("Mesh file", mesh_file,
                 "File of 'Shape' mesh, x along the path and z up: .msh of Gmsh (ASCII, 2.2 or 4.1), .inp of "
                 "Abaqus or .k of LS-DYNA. Its faces are named contact, support, end or symmetry; "
                 "doc/own-mesh.md. The path lies at y = 0 or beside it, as the wheel has it.",
-                Anything());
+                AnyText());
     section.choose("Mesh unit", mesh_unit, "Of the lengths in 'Mesh file'.");
     section.add(
       "Materials", materials,
@@ -134,29 +131,29 @@ namespace tread
     section.add("Begin (mm)", begin, "automatic",
                 "x of the beginning of the rail. automatic: if Length is given, the rail extends as far "
                 "before the path as behind it; otherwise it extends by Margin.",
-                Double(-1e5, 1e5));
+                Number(-1e5, 1e5));
     section.add("Length (mm)", length,
-                "Length of the whole rail. 0: the rail ends by Margin behind the path.", Double(0., 1e5));
+                "Length of the whole rail. 0: the rail ends by Margin behind the path.", Number(0., 1e5));
     section.add("Crown radius (mm)", crown_radius,
-                "Radius of the crown of a block, which is its lateral curvature.", Double(10., 1e6));
-    section.add("Block width (mm)", block_width, "Lateral width of a block.", Double(1., 1000.));
+                "Radius of the crown of a block, which is its lateral curvature.", Number(10., 1e6));
+    section.add("Block width (mm)", block_width, "Lateral width of a block.", Number(1., 1000.));
     section.add("Block height (mm)", block_height, "Height of a block at its crown; its bottom is held.",
-                Double(1., 1000.));
+                Number(1., 1000.));
     section.add("Margin (mm)", margin,
                 "Length of rail beyond the rolled distance at each end. At least three contact semi-axes; "
                 "150 mm for a full section, whose head deflects more near a free end, which would make the "
                 "normal force drift by per cents.",
-                Double(0., 20000.));
+                Number(0., 20000.));
     section.choose("Ends", ends, "Of a rail on supports ('Track/Foundation').");
     section.add("Absorbing length (m)", absorbing_length,
                 "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
                 "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
-                Double(0.05, 100.));
+                Number(0.05, 100.));
     section.add("Spans beyond", spans_beyond,
                 "Sleeper spans of the beam behind each endless end, or each end of a piece on a beam "
                 "('Track/Foundation'), whose farther half absorbs what arrives. "
                 "Their supports are those of section Track, all alike, whatever 'Track/Support file' has.",
-                Integer(4, 1000));
+                WholeNumber(4, 1000));
     material.declare(section);
   }
 

@@ -3,15 +3,14 @@
 
 namespace tread
 {
-  void SolidSection::declare(dealii::ParameterHandler &handler)
+  void SolidSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Solid");
+    Section section(table, "Solid");
 
     section.choose("Element", element, elements());
     section.add("Hourglass coefficient", hourglass_coefficient,
                 "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
-                Double(0.01, 10.));
+                Number(0.01, 10.));
     section.add(
       "Matched surface", matched_surface,
       "Whether the hourglass stiffness of the uppermost layer of one-point cells is weighted so that "
@@ -25,21 +24,21 @@ namespace tread
       "shorten the stable time step, of cubes above 1.6, of other cells and with a larger 'Hourglass "
       "coefficient' "
       "sooner.",
-      Double(0., 10.));
+      Number(0., 10.));
     section.add(
       "Stiffness damping (time steps)", stiffness_damping,
       "Internal forces are taken at x + beta v, beta in time steps. 0.1 removes grid-frequency chatter of "
       "the "
       "micro-slip and nothing else that can be seen; larger values shorten the stable time step.",
-      Double(0., 10.));
+      Number(0., 10.));
     section.add("Mass damping (1 per s)", mass_damping,
                 "Damping of motion relative to the rigid bodies: a wave fades by half in 1.4 over this. It "
                 "removes oscillations that the start excites; only for quasi-static scenes.",
-                Double(0., 1e6));
+                Number(0., 1e6));
     section.add("Linear bulk viscosity", linear_bulk_viscosity,
-                "Damps ringing behind wave fronts; 0.06 is usual for impact.", Double(0., 10.));
+                "Damps ringing behind wave fronts; 0.06 is usual for impact.", Number(0., 10.));
     section.add("Quadratic bulk viscosity", quadratic_bulk_viscosity,
-                "Damps compression only; 1.2 is usual for impact.", Double(0., 10.));
+                "Damps compression only; 1.2 is usual for impact.", Number(0., 10.));
   }
 
 

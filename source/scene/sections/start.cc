@@ -16,20 +16,18 @@ namespace tread
   }
 
 
-  void StartSection::declare(dealii::ParameterHandler &handler)
+  void StartSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    Section section(handler, "Start");
+    Section section(table, "Start");
 
     section.choose(
       "Tractions", tractions, "",
       "On a track the start takes some times as many iterations, and lateral tractions build up.");
     section.add("Tolerance", tolerance,
                 "Largest residual of the force balance at the start, as a share of the largest force.",
-                Double(1e-12, 0.01));
+                Number(1e-12, 0.01));
     section.add("Largest number of iterations", max_iterations,
                 "Limit for the dynamic relaxation that finds the equilibrium at the start.",
-                Integer(1, 100000000));
+                WholeNumber(1, 100000000));
   }
 } // namespace tread

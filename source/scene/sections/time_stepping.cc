@@ -3,22 +3,20 @@
 
 namespace tread
 {
-  void TimeSteppingSection::declare(dealii::ParameterHandler &handler)
+  void TimeSteppingSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    Section section(handler, "Time stepping");
+    Section section(table, "Time stepping");
 
     section.add("Courant number", courant_number,
                 "Time step over the critical one. With 'Levels' above 1 and no mass damping it is at most "
                 "0.9, because longer steps resonate on some meshes.",
-                Double(0.01, 1.));
+                Number(0.01, 1.));
     section.add(
       "Levels", levels,
       "Number of levels of time steps: cells whose critical step is twice, four times, ... the shortest one "
       "are evaluated in every second, fourth, ... step only. 1: all cells in every step. More levels pay "
       "where much of the mesh is coarse; results are then at least 2^(levels - 1) steps apart.",
-      Integer(1, 6));
+      WholeNumber(1, 6));
     section.add(
       "Least step (us)", least_step,
       "Time step that the fastest cells are given mass for, where they would need a shorter one. For dynamic "
@@ -28,6 +26,6 @@ namespace tread
       "contact force, which `--dry-run` prints for several steps. The step comes out longer where no cell "
       "can vibrate as fast in "
       "the mesh as it would alone. 0: all cells have their own density.",
-      Double(0., 100.));
+      Number(0., 100.));
   }
 } // namespace tread

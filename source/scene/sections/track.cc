@@ -33,14 +33,12 @@ namespace tread
   }
 
 
-  void TrackSection::declare(dealii::ParameterHandler &handler)
+  void TrackSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
     // Far beyond any pad or ballast on both sides; still softer ones let the rail sink away, stiffer ones and
     // stronger dampers take steps that no run has time for.
-    const Double stiffness(1., 1e8), damping(0., 1e5);
-    Section      section(handler, "Track");
+    const Number stiffness(1., 1e8), damping(0., 1e5);
+    Section      section(table, "Track");
 
     section.choose("Foundation", foundation, "",
                    "With layers the rail's ends are planes of symmetry, and supports move vertically only.");
@@ -49,10 +47,10 @@ namespace tread
       "Sleeper spacing (m)", sleeper_spacing,
       "Distance between the middles of neighbouring supports. But on a beam the rail must end between half a "
       "pad and half a spacing beyond its last supports.",
-      Double(0.05, 10.));
+      Number(0.05, 10.));
     section.add("Support 0 (mm)", support_0,
                 "x of the support with number 0. Numbers grow in rolling direction.",
-                Double(-20000., 20000.));
+                Number(-20000., 20000.));
     section.add("Pad stiffness (MN per m)", pad_stiffness,
                 "Vertical stiffness of the rail pad, for a whole rail seat.", stiffness);
     section.add("Pad damping (kN s per m)", pad_damping,
@@ -62,37 +60,37 @@ namespace tread
                 "false: the rail can lift off its pads.");
     section.add("Pad length (mm)", pad_length,
                 "Length of the pad along the rail. Longer pads resist the slope of the rail as well.",
-                Double(1., 2000.));
+                Number(1., 2000.));
     section.add("Pad width (mm)", pad_width,
                 "Width of the pad across the rail, at most that of the foot. Wider pads resist the roll-over "
                 "of the rail more.",
-                Double(1., 2000.));
+                Number(1., 2000.));
     section.add("Points along", points_along,
                 "Number of points along the rail at which a pad acts (the ballast under a solid sleeper "
                 "likewise). 1: the pad does not resist the slope of the rail.",
-                Integer(1, 50));
+                WholeNumber(1, 50));
     section.add(
       "Points across", points_across,
       "Number of points across the rail at which a pad acts. 1: nothing keeps the rail from rolling over, so "
       "only for upright rails that are loaded on y = 0 and whose crown radius exceeds their height.",
-      Integer(1, 50));
+      WholeNumber(1, 50));
     section.add("Sleeper mass (kg)", sleeper_mass,
                 "Mass of the sleeper under one rail: half a sleeper. It sets the height of a solid one.",
-                Double(1e-3, 1e6));
-    section.add("Sleeper length (m)", sleeper_length, "Length of a whole solid sleeper.", Double(0.1, 10.));
+                Number(1e-3, 1e6));
+    section.add("Sleeper length (m)", sleeper_length, "Length of a whole solid sleeper.", Number(0.1, 10.));
     section.add("Sleeper width (mm)", sleeper_width,
                 "Width of a solid sleeper along the rail; not below the length of the pad.",
-                Double(1., 2000.));
+                Number(1., 2000.));
     section.add("Rail distance (mm)", rail_distance,
                 "Distance between the middles of both rails, for solid sleepers: the middle of the track "
                 "lies half of it away, at y < 0.",
-                Double(1., 5000.));
+                Number(1., 5000.));
     section.add("Sleeper Young's modulus (GPa)", sleeper_young_modulus, "Young's modulus of a solid sleeper.",
-                Double(1e-3, 1e4));
+                Number(1e-3, 1e4));
     section.add("Sleeper Poisson's ratio", sleeper_poisson_ratio, "Poisson's ratio of a solid sleeper.",
-                Double(0., 0.49));
+                Number(0., 0.49));
     section.add("Sleeper density (kg per m3)", sleeper_density, "Density of a solid sleeper.",
-                Double(1., 1e5));
+                Number(1., 1e5));
     section.add("Ballast stiffness (MN per m)", ballast_stiffness,
                 "Vertical stiffness of the ballast under one rail's half of a sleeper.", stiffness);
     section.add("Ballast damping (kN s per m)", ballast_damping,
@@ -101,7 +99,7 @@ namespace tread
       "Stiffness along the rail (MN per m)", stiffness_along,
       "With which each support beyond endless ends ('Rail/Ends') holds the rail along itself. Those "
       "under the cells hold it vertically only.",
-      Double(0., 1e6));
+      Number(0., 1e6));
     section.add(
       "Support file", support_file,
       "Table of supports that differ, such as hanging sleepers or soft pads, separated by commas, with a row "
@@ -111,7 +109,7 @@ namespace tread
     section.add(
       "Co-running mass (kg)", co_running_mass,
       "Mass of the track that moves with the rail under the wheel, without the meshed part of the rail.",
-      Double(10., 1e6));
+      Number(10., 1e6));
     section.add("Vertical stiffness (MN per m)", vertical_stiffness,
                 "Vertical stiffness of the co-running track under a wheel; the force counts from the "
                 "equilibrium at the start.",
@@ -125,11 +123,11 @@ namespace tread
     section.add("Beam bending stiffness (MN m2)", beam_bending_stiffness,
                 "E I of the rail's whole section, of which a beam is made, that of the cells included. The "
                 "default is a 60E1 rail's; a crossing has several times as much.",
-                Double(1e-3, 1e4));
+                Number(1e-3, 1e4));
     section.add("Beam shear stiffness (MN)", beam_shear_stiffness, "The same in shear, kappa G A.",
-                Double(1e-1, 1e6));
+                Number(1e-1, 1e6));
     section.add("Beam mass (kg per m)", beam_mass, "The same: mass per length, that of the cells included.",
-                Double(1e-1, 1e5));
+                Number(1e-1, 1e5));
     section.add(
       "Beam file", beam_file,
       "Table of stretches of the beam that differ, such as a joint with fishplates or the casting of a "

@@ -3,31 +3,30 @@
 
 namespace tread
 {
-  void VehicleSection::declare(dealii::ParameterHandler &handler)
+  void VehicleSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Vehicle");
+    Section section(table, "Vehicle");
 
     section.add(
       "Sprung mass (kg)", sprung_mass,
       "Sprung mass per wheel: it rests on the primary suspension and its weight is part of the wheel load.",
-      Double(0.));
+      Number(0.));
     section.add("Wheel load (kN)", wheel_load, "masses",
                 "Static force between each wheel and the rail. A number sets the sprung mass, whatever "
                 "'Sprung mass' says. masses: the load is the weight of 'Wheel/Mass' and sprung mass.",
-                Double(0.));
+                Number(0.));
     section.add(
       "Axle load (t)", axle_load, "none",
       "Static axle load: the mass that both wheels of the axle press on the rails, themselves included; each "
       "wheel carries half of its weight. A number sets the sprung mass, whatever 'Sprung mass' says, and "
       "excludes 'Wheel load (kN)'. none: 'Wheel load (kN)' or the masses give the load.",
-      Double(0.));
+      Number(0.));
     section.add("Suspension stiffness (kN per m)", suspension_stiffness,
-                "Vertical stiffness of the primary suspension, per wheel.", Double(0.));
+                "Vertical stiffness of the primary suspension, per wheel.", Number(0.));
     section.add("Suspension damping (N s per m)", suspension_damping,
-                "Vertical damping of the primary suspension, per wheel.", Double(0.));
+                "Vertical damping of the primary suspension, per wheel.", Number(0.));
     section.add("Gravity (m per s2)", gravity,
                 "Acceleration of gravity, which turns wheel and sprung mass into the load of the contact.",
-                Double(0., 100.));
+                Number(0., 100.));
   }
 } // namespace tread

@@ -3,10 +3,10 @@
 
 namespace tread
 {
-  void WatchdogSection::declare(dealii::ParameterHandler &handler)
+  void WatchdogSection::declare(ParameterTable &table)
   {
-    const dealii::Patterns::Double positive(1e-12, 1e12);
-    Section                        section(handler, "Watchdogs");
+    const Number positive(1e-12, 1e12);
+    Section      section(table, "Watchdogs");
 
     section.add("Energy residual", warn.residual,
                 "Share of the dissipated energy that may be unaccounted for before the run is warned of.",
@@ -32,8 +32,7 @@ namespace tread
     section.add("Stop at strain", stop_at_strain,
                 "A run stops where a cell has a larger strain (Green-Lagrange, Frobenius' norm).", positive);
     section.add("Stop at volume", stop_at_volume,
-                "A run stops where a cell has less of its volume before deformation.",
-                dealii::Patterns::Double(0., 1.));
+                "A run stops where a cell has less of its volume before deformation.", Number(0., 1.));
     section.add("Stop at node speed (m per s)", stop_at_node_speed,
                 "A run stops where a node is faster: an unstable step.", positive);
   }

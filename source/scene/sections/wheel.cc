@@ -16,89 +16,87 @@ namespace tread
   }
 
 
-  void WheelSection::declare(dealii::ParameterHandler &handler)
+  void WheelSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
     constexpr double tiny = 1e-12; // for "above 0"
-    Section          section(handler, "Wheel");
+    Section          section(table, "Wheel");
 
     section.choose("Shape", shape);
     section.add("Radius (mm)", radius, "Rolling radius of the wheel. It sets the curvature along the rail.",
-                Double(10., 2000.));
+                Number(10., 2000.));
     section.add("Mass (kg)", mass,
                 "Unsprung mass per wheel (wheel, half axle, axle box), whether meshed or not; its weight is "
                 "part of the wheel load.",
-                Double(tiny));
+                Number(tiny));
     section.add(
       "Moment of inertia (kg m2)", moment_of_inertia,
       "Moment of inertia of the unsprung mass about the axle. It matters when a torque drives the wheel.",
-      Double(tiny));
+      Number(tiny));
     section.add(
       "Sector thickness (mm)", sector_thickness,
       "Radial thickness of a sector; a thicker one is nearer to a half-space. Where 'Wheelset' has a "
       "position: thickness of wheel and rail behind their surfaces, at right angles to the contact.",
-      Double(1., 1000.));
+      Number(1., 1000.));
     section.add("Sector width (mm)", sector_width,
                 "Lateral width of a sector. Where 'Wheelset' has a position: width of wheel and rail along "
                 "their surfaces, across the path.",
-                Double(1., 1000.));
+                Number(1., 1000.));
     section.add("Sector margin (mm)", sector_margin,
                 "Length of the arc by which a sector extends beyond the rolled distance at each end.",
-                Double(0., 1000.));
+                Number(0., 1000.));
     section.add(
       "Rim inner radius (mm)", rim_inner_radius,
       "Inner radius of the rim of a full wheel; above the hub's outer radius and below the wheel's radius.",
-      Double(1., 2000.));
+      Number(1., 2000.));
     section.add("Rim width (mm)", rim_width,
-                "Width of the rim of a full wheel; above the thickness of the web.", Double(1., 1000.));
+                "Width of the rim of a full wheel; above the thickness of the web.", Number(1., 1000.));
     section.add("Web thickness (mm)", web_thickness,
-                "Thickness of the web of a full wheel; below rim width and hub length.", Double(1., 1000.));
+                "Thickness of the web of a full wheel; below rim width and hub length.", Number(1., 1000.));
     section.add("Hub outer radius (mm)", hub_outer_radius,
-                "Outer radius of the hub of a full wheel; above the radius of the bore.", Double(1., 2000.));
+                "Outer radius of the hub of a full wheel; above the radius of the bore.", Number(1., 2000.));
     section.add("Hub length (mm)", hub_length,
                 "Length of the hub of a full wheel along the axle; above the thickness of the web.",
-                Double(1., 1000.));
+                Number(1., 1000.));
     section.add("Bore radius (mm)", bore_radius,
-                "Radius of the bore of a full wheel, in which the rigid axle sits.", Double(1., 2000.));
+                "Radius of the bore of a full wheel, in which the rigid axle sits.", Number(1., 2000.));
     section.add(
       "Tread profile", tread_profile,
       "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
       "mm "
       "(flange at y < 0, z up), .prw of Simpack or .whl of MiniProf. The flange itself is not meshed.",
-      Anything());
+      AnyText());
     section.add("Tread profile mirrored", profile_placement.is_mirrored,
                 "true: the sign of y in the file is reversed.");
     section.add(
       "Tread profile shift (mm)", profile_placement.shift,
       "Added to the file's y, after mirroring: where its y = 0 lies from the running circle, 70 mm from the "
       "back of the flange. A file that counts y from this back needs -70.",
-      Double(-200., 200.));
+      Number(-200., 200.));
     section.add(
       "Smoothing length (mm)", profile_placement.smoothing,
       "Of the file 'Wheel/Tread profile': a smoothing spline leaves half of waves of this length along the "
       "surface, 6 % of those half as long and 94 % of those twice as long. Instruments need some "
       "millimetres; how far it moves the points is printed. 0: none.",
-      Double(0., 50.));
+      Number(0., 50.));
     section.add("Lateral position (mm)", lateral_position,
                 "y of the running circle relative to the middle of the rail; the flange lies at y < 0.",
-                Double(-30., 30.));
+                Number(-30., 30.));
     section.add(
       "Deviation", deviation,
       "What the wheel has beyond round: a scan (.csv with angle_deg or angle_rad, y_mm, dz_mm, or a column "
       "for "
       "each place y; .slcw of CONTACT), 'flat: length_mm=L depth_mm=D across_radius_mm=R angle_deg=A', or "
       "'waves: ORDER=AMPLITUDE_MM@CREST_DEG ...'. Empty: the wheel is round.",
-      Anything());
+      AnyText());
     section.add("Deviation smoothing (mm)", deviation_smoothing,
                 "Of a scan: of waves of this length, along and across the tread, half is left. 0: none.",
-                Double(0., 100.));
+                Number(0., 100.));
     section.add(
       "Deviation pitch (deg)", deviation_pitch,
       "Turn of the deviation about the axle at the start, negative forward. At 0 its angle 0 is at "
       "the bottom; a place at the angle A on the wheel comes to the rail when the wheel has rolled by "
       "its radius times A plus this pitch.",
-      Double(-360., 360.));
+      Number(-360., 360.));
     material.declare(section);
   }
 

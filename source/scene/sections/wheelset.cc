@@ -18,25 +18,24 @@ namespace tread
   }
 
 
-  void WheelsetSection::declare(dealii::ParameterHandler &handler)
+  void WheelsetSection::declare(ParameterTable &table)
   {
-    using dealii::Patterns::Double;
-    Section section(handler, "Wheelset");
+    Section section(table, "Wheelset");
 
     section.add("Lateral shift (mm)", shift, "none",
                 "Lateral displacement of the wheelset from the middle of the track, positive towards the "
                 "side of the modelled wheel (its own side), so that the flange of this wheel approaches its "
                 "rail. A number, 0 too, puts the wheel with its flange into the track. none: an upright "
                 "wheel over the rail, at 'Wheel/Lateral position (mm)'.",
-                Double(-100., 100.));
+                Number(-100., 100.));
     section.add("Yaw (mrad)", yaw,
                 "Yaw of the wheelset, positive when its leading side turns towards the side of the modelled "
                 "wheel, so that this wheel falls behind the other. Up to 5 degrees.",
-                Double());
+                Number());
     section.add(
       "Roll (mrad)", roll,
       "Roll of the wheelset, positive when the side of the modelled wheel goes down. Up to 5 degrees.",
-      Double());
+      Number());
     section.add("Both wheels", both_wheels,
                 "true: both wheels are meshed, on one axle and over both rails. Mass, inertia, load and "
                 "suspension of the wheel are then those of each wheel, and the roll follows from both "
@@ -44,31 +43,31 @@ namespace tread
     section.add("Axle torsional stiffness (MN m per rad)", axle_torsion, "rigid",
                 "Torsional stiffness of the axle between both wheels; twist counts from the start of the "
                 "run. rigid: the axle does not twist.",
-                Double(0.));
+                Number(0.));
     section.add(
       "Axle bending stiffness (MN m2)", axle_bending, "rigid",
       "Bending stiffness E I of the axle between both wheels; bending counts from the start of the run, so "
       "that the position includes what the static load bends. rigid: the axle does not bend.",
-      Double(0.));
+      Number(0.));
     section.add(
       "Axle damping (us)", axle_damping,
       "Damping of a flexible axle over its stiffness: twice the damping ratio over the angular frequency.",
-      Double(0., 1e5));
+      Number(0., 1e5));
     section.add("Track gauge (mm)", track.gauge, "Track gauge, between the gauge faces of both rails.",
-                Double(500., 3000.));
+                Number(500., 3000.));
     section.add("Gauge depth (mm)", track.measuring_depth,
-                "Depth below the rail tops at which the gauge is measured.", Double(1., 30.));
+                "Depth below the rail tops at which the gauge is measured.", Number(1., 30.));
     section.add("Flange-back distance (mm)", track.back_distance,
-                "Back-to-back distance of the wheels' flanges.", Double(400., 3000.));
+                "Back-to-back distance of the wheels' flanges.", Number(400., 3000.));
     section.add("Flange back (mm)", track.back_position, "y of the flange's back in the wheel's profile.",
-                Double(-200., 0.));
+                Number(-200., 0.));
     section.choose("Slip over the patch", slip_over_patch,
                    "Rigid slip over a patch that is wide for its profiles.");
     section.add("Patch distance (mm)", patch_distance,
                 "Half-space theory solves overlaps of wheel and rail that are nearer to each other, along "
                 "the surface, as one patch in "
                 "one plane. Others are patches of their own, which do not deform each other.",
-                Double(0., 100.));
+                Number(0., 100.));
   }
 
 

@@ -2,8 +2,8 @@
 #ifndef tread_scene_sections_contact_h
 #define tread_scene_sections_contact_h
 
+#include <tread/base/section.h>
 #include <tread/contact/friction_law.h>
-#include <tread/scene/section.h>
 
 namespace tread
 {
@@ -38,7 +38,7 @@ namespace tread
 
     /// @throws InputError
     void check() const;
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

@@ -4,7 +4,7 @@
 
 #include <tread/analysis/damage_index.h>
 #include <tread/analysis/wear_law.h>
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ namespace tread
     double                rail_temperature = 20., wheel_temperature = 20.; ///< degrees C
     double                shear_strength = 0.; ///< Pa; 0: from the rail's yield stress
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

@@ -2,8 +2,8 @@
 #ifndef tread_scene_sections_defect_h
 #define tread_scene_sections_defect_h
 
+#include <tread/base/section.h>
 #include <tread/geometry/defect.h>
-#include <tread/scene/section.h>
 
 #include <memory>
 
@@ -48,7 +48,7 @@ namespace tread
     bool                reversed    = false;
     std::vector<double> repeated_at; ///< x of further leading edges
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// Null: none. @param file where the profile file was found. @throws InputError
     std::shared_ptr<const Defect> make(const std::string &file) const;
   };

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_further_wheels_h
 #define tread_scene_sections_further_wheels_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace tread
     std::vector<double> distances;             ///< from the first wheel's axle backwards
     std::vector<double> traction_coefficients; ///< none: as the first wheel's
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @param least_distance between two axles, m. @throws InputError
     void check(double least_distance) const;
   };

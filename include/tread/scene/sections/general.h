@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_general_h
 #define tread_scene_sections_general_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -14,7 +14,7 @@ namespace tread
     double      density_scale = 1.; ///< factor on the density of the cells
     bool        reproducible  = false;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     void check() const;
   };
 } // namespace tread

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_guidance_h
 #define tread_scene_sections_guidance_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 #include <tread/track/wheel_hub.h>
 
 namespace tread
@@ -18,7 +18,7 @@ namespace tread
     GuidanceSprings springs;
     double          yaw_inertia = 0.;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @param has_both_wheels whether the wheelset rolls. @throws InputError
     void check(const bool has_both_wheels) const;
   };

@@ -2,9 +2,9 @@
 #ifndef tread_scene_sections_material_h
 #define tread_scene_sections_material_h
 
+#include <tread/base/section.h>
 #include <tread/material/elastic.h>
 #include <tread/material/plastic.h>
-#include <tread/scene/section.h>
 
 namespace tread
 {
@@ -30,6 +30,8 @@ namespace tread
     std::vector<double> backstress_moduli = {60e9}, backstress_recoveries = {300.}; ///< Pa; no unit
     double              plastic_depth = 8e-3, plastic_half_width = 10e-3; ///< of the cells that yield, m
     std::string         plastic_zones;
+    static constexpr const char *form_of_zones =
+      "begin:end:depth:yield stress:tangent modulus, in mm, MPa and GPa";
 
     /// A part of the plastic zone that differs from the rest: m and Pa.
     struct Zone

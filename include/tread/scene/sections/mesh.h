@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_mesh_h
 #define tread_scene_sections_mesh_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -29,7 +29,7 @@ namespace tread
     WindowUse    window        = WindowUse::automatic;
     double       window_length = 0., window_margin = 0.; ///< 0: automatic
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
   };

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_motion_h
 #define tread_scene_sections_motion_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 #include <tread/track/wheel_hub.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace tread
     std::optional<double> angular_velocity; ///< magnitude, positive rolling forward, rad/s; none: by drive
     unsigned int          passages = 1;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
 

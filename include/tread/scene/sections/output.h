@@ -2,8 +2,8 @@
 #ifndef tread_scene_sections_output_h
 #define tread_scene_sections_output_h
 
+#include <tread/base/section.h>
 #include <tread/output/picture.h>
-#include <tread/scene/section.h>
 
 namespace tread
 {
@@ -31,7 +31,10 @@ namespace tread
       return patch_interval > 0. ? patch_interval : surface_interval;
     }
 
-    void declare(dealii::ParameterHandler &handler);
+    static constexpr const char *form_of_cells =
+      "x,y,depth in mm, depth above 0, entries separated by semicolons";
+
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_peak_stress_h
 #define tread_scene_sections_peak_stress_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -24,7 +24,7 @@ namespace tread
     double    half_width = 0.;    ///< 0: that of the patch
     double    depth      = 6e-3;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     bool is_wanted() const
     {
       return place != PeakPlace::none;

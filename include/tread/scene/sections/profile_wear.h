@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_profile_wear_h
 #define tread_scene_sections_profile_wear_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -17,7 +17,7 @@ namespace tread
     double       least_step = 0.1e-6;
     unsigned int states     = 4;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
   };

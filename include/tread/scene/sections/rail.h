@@ -114,7 +114,7 @@ namespace tread
     /// From the base to the top, without a measured head or a defect.
     double height() const;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
   };

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_ratcheting_h
 #define tread_scene_sections_ratcheting_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -19,7 +19,7 @@ namespace tread
     double       strain_of_a_jump  = 3e-2; ///< largest change of the net plastic strain
     unsigned int longest_jump      = 1000; ///< passages
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

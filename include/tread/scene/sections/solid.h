@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_solid_h
 #define tread_scene_sections_solid_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 #include <tread/solid/solid.h>
 
 namespace tread
@@ -23,7 +23,7 @@ namespace tread
       return linear_bulk_viscosity != 0. || quadratic_bulk_viscosity != 0.;
     }
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
   };

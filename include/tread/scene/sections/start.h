@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_start_h
 #define tread_scene_sections_start_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -22,7 +22,7 @@ namespace tread
     double         tolerance      = 1e-5; ///< of the force balance, share of the largest force
     unsigned int   max_iterations = 20000;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

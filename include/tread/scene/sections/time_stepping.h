@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_time_stepping_h
 #define tread_scene_sections_time_stepping_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -13,7 +13,7 @@ namespace tread
     unsigned int levels         = 1;
     double       least_step     = 0.; ///< s, which the fastest cells are given mass for; 0: none
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_track_h
 #define tread_scene_sections_track_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -80,7 +80,7 @@ namespace tread
     /// With which a solid sleeper has its mass, m.
     double solid_sleeper_height() const;
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// What concerns the track alone, if it has supports. @throws InputError
     void check() const;
   };

@@ -2,7 +2,7 @@
 #ifndef tread_scene_sections_vehicle_h
 #define tread_scene_sections_vehicle_h
 
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 namespace tread
 {
@@ -13,7 +13,7 @@ namespace tread
     std::optional<double> wheel_load; ///< N; sets the sprung mass
     std::optional<double> axle_load;  ///< kg on both wheels; sets the sprung mass
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

@@ -2,8 +2,8 @@
 #ifndef tread_scene_sections_watchdogs_h
 #define tread_scene_sections_watchdogs_h
 
+#include <tread/base/section.h>
 #include <tread/output/quality.h>
-#include <tread/scene/section.h>
 
 namespace tread
 {
@@ -16,7 +16,7 @@ namespace tread
     double        stop_at_volume     = 0.3; ///< over the undeformed one
     double        stop_at_node_speed = 1e3; ///< m/s
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
   };
 } // namespace tread
 

@@ -55,7 +55,7 @@ namespace tread
       return is_full() ? radius - rim_inner_radius : sector_thickness;
     }
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
   };

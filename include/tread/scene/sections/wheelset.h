@@ -2,8 +2,8 @@
 #ifndef tread_scene_sections_wheelset_h
 #define tread_scene_sections_wheelset_h
 
+#include <tread/base/section.h>
 #include <tread/geometry/wheel_on_rail.h>
-#include <tread/scene/section.h>
 
 namespace tread
 {
@@ -50,7 +50,7 @@ namespace tread
       return both_wheels ? 2 : 1;
     }
 
-    void declare(dealii::ParameterHandler &handler);
+    void declare(ParameterTable &table);
     /// @throws InputError
     void check() const;
   };

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef tread_scene_section_h
-#define tread_scene_section_h
+#ifndef tread_base_section_h
+#define tread_base_section_h
 
 #include <tread/base/format.h>
 #include <tread/base/input_error.h>
-
-#include <deal.II/base/parameter_handler.h>
+#include <tread/base/parameter_table.h>
 
 #include <functional>
 #include <optional>
@@ -52,39 +51,40 @@ namespace tread
   class Section
   {
   public:
-    Section(dealii::ParameterHandler &handler, const std::string &name);
+    Section(ParameterTable &table, const std::string &name);
     ~Section();
     Section(const Section &)            = delete;
     Section &operator=(const Section &) = delete;
 
     /// @param value in SI units; what it is now is the default. @param range in the unit of the file.
-    void add(const std::string              &name,
-             double                         &value,
-             const std::string              &meaning,
-             const dealii::Patterns::Double &range);
+    void add(const std::string &name, double &value, const std::string &meaning, const Number &range);
     /// A list of numbers, separated by commas; it may be empty if it is so by default. @param range of each
     /// of them; @param at_most so many
-    void add(const std::string              &name,
-             std::vector<double>            &values,
-             const std::string              &meaning,
-             const dealii::Patterns::Double &range,
-             unsigned int                    at_most);
+    void add(const std::string   &name,
+             std::vector<double> &values,
+             const std::string   &meaning,
+             const Number        &range,
+             unsigned int         at_most);
+    void add(const std::string &name,
+             std::vector<int>  &values,
+             const std::string &meaning,
+             const WholeNumber &range,
+             unsigned int       at_most);
     /// A number, or a word that leaves it open.
-    void add(const std::string              &name,
-             std::optional<double>          &value,
-             const std::string              &word,
-             const std::string              &meaning,
-             const dealii::Patterns::Double &range);
-    /// Texts, whole numbers and truth values.
-    template <typename T>
-    void add(
-      const std::string                   &name,
-      T                                   &value,
-      const std::string                   &meaning,
-      const dealii::Patterns::PatternBase &pattern = *dealii::Patterns::Tools::Convert<T>::to_pattern())
-    {
-      handler.add_parameter(name, value, meaning, pattern);
-    }
+    void add(const std::string     &name,
+             std::optional<double> &value,
+             const std::string     &word,
+             const std::string     &meaning,
+             const Number          &range);
+    void add(const std::string &name,
+             unsigned int      &value,
+             const std::string &meaning,
+             const WholeNumber &range);
+    void add(const std::string &name, bool &value, const std::string &meaning);
+    void add(const std::string  &name,
+             std::string        &value,
+             const std::string  &meaning,
+             const AllowedTexts &allowed = AnyText());
     /// One of the choices of an enumeration, which are explained one after the other.
     template <typename Enum>
     void choose(const std::string &name,
@@ -92,16 +92,17 @@ namespace tread
                 const std::string &introduction = "",
                 const std::string &remark       = "")
     {
-      std::string names, meaning = introduction;
+      std::vector<std::string> names;
+      std::string              meaning = introduction;
       for (const Choice<Enum> &choice : choices<Enum>())
         {
-          names += (names.empty() ? "" : "|") + choice.name;
+          names.push_back(choice.name);
           if (!choice.meaning.empty())
             meaning += (meaning.empty() ? "" : " ") + choice.name + ": " + choice.meaning;
         }
       if (!remark.empty())
         meaning += " " + remark;
-      declare(name, name_of(value), meaning, dealii::Patterns::Selection(names),
+      declare(name, name_of(value), OneOf(names), meaning,
               [&value](const std::string &text) { value = choice_named<Enum>(text); });
     }
 
@@ -112,23 +113,27 @@ namespace tread
                 const std::vector<Entry> &entries,
                 const std::string        &introduction = "")
     {
-      std::string names, meaning = introduction;
+      std::vector<std::string> names;
+      std::string              meaning = introduction;
       for (const Entry &entry : entries)
         {
-          names += (names.empty() ? "" : "|") + entry.name;
+          names.push_back(entry.name);
           meaning += (meaning.empty() ? "" : " ") + entry.name + ": " + entry.description + ".";
         }
-      add(name, value, meaning, dealii::Patterns::Selection(names));
+      add(name, value, meaning, OneOf(names));
     }
 
-  private:
+    /// A parameter whose value who needs it takes from the table, or is told. @param value the default, as in
+    /// the file
     void declare(const std::string                              &name,
                  const std::string                              &value,
+                 const AllowedTexts                             &allowed,
                  const std::string                              &meaning,
-                 const dealii::Patterns::PatternBase            &pattern,
-                 const std::function<void(const std::string &)> &take);
+                 const std::function<void(const std::string &)> &take = {});
 
-    dealii::ParameterHandler &handler;
+  private:
+    ParameterTable   &table;
+    const std::string name;
   };
 } // namespace tread
 

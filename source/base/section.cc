@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/base/word_or_number.h>
-#include <tread/scene/section.h>
+#include <tread/base/section.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -12,8 +11,6 @@ namespace tread
 {
   namespace
   {
-    using dealii::Patterns::Double;
-
     /// A value in SI units is the number in the file times `times` over `over`.
     struct Unit
     {
@@ -65,23 +62,24 @@ namespace tread
   } // namespace
 
 
-  Section::Section(dealii::ParameterHandler &handler, const std::string &name)
-    : handler(handler)
+  Section::Section(ParameterTable &table, const std::string &name)
+    : table(table)
+    , name(name)
   {
-    handler.enter_subsection(name);
+    table.values.enter_subsection(name);
   }
 
 
   Section::~Section()
   {
-    handler.leave_subsection();
+    table.values.leave_subsection();
   }
 
 
-  void Section::add(const std::string &name, double &value, const std::string &meaning, const Double &range)
+  void Section::add(const std::string &name, double &value, const std::string &meaning, const Number &range)
   {
     const Unit unit = unit_of(name);
-    declare(name, in_file(value, unit), meaning, range,
+    declare(name, in_file(value, unit), range, meaning,
             [&value, unit](const std::string &text) { value = in_si(text, unit); });
   }
 
@@ -89,14 +87,14 @@ namespace tread
   void Section::add(const std::string   &name,
                     std::vector<double> &values,
                     const std::string   &meaning,
-                    const Double        &range,
+                    const Number        &range,
                     const unsigned int   at_most)
   {
     const Unit  unit = unit_of(name);
     std::string list;
     for (const double value : values)
       list += (list.empty() ? "" : ",") + in_file(value, unit);
-    declare(name, list, meaning, dealii::Patterns::List(range, values.empty() ? 0 : 1, at_most),
+    declare(name, list, ListOf(range, values.empty() ? 0 : 1, at_most), meaning,
             [&values, unit](const std::string &text) {
               values.clear();
               for (const std::string &part : dealii::Utilities::split_string_list(text))
@@ -105,27 +103,71 @@ namespace tread
   }
 
 
+  void Section::add(const std::string &name,
+                    std::vector<int>  &values,
+                    const std::string &meaning,
+                    const WholeNumber &range,
+                    const unsigned int at_most)
+  {
+    std::string list;
+    for (const int value : values)
+      list += (list.empty() ? "" : ",") + std::to_string(value);
+    declare(name, list, ListOf(range, values.empty() ? 0 : 1, at_most), meaning,
+            [&values](const std::string &text) {
+              values = dealii::Utilities::string_to_int(dealii::Utilities::split_string_list(text));
+            });
+  }
+
+
   void Section::add(const std::string     &name,
                     std::optional<double> &value,
                     const std::string     &word,
                     const std::string     &meaning,
-                    const Double          &range)
+                    const Number          &range)
   {
     const Unit unit = unit_of(name);
-    declare(name, value ? in_file(*value, unit) : word, meaning, WordOrNumber(word, range),
+    declare(name, value ? in_file(*value, unit) : word, WordOrNumber(word, range), meaning,
             [&value, word, unit](const std::string &text) {
               value = text == word ? std::optional<double>() : in_si(text, unit);
             });
   }
 
 
-  void Section::declare(const std::string                              &name,
+  void Section::add(const std::string &name,
+                    unsigned int      &value,
+                    const std::string &meaning,
+                    const WholeNumber &range)
+  {
+    declare(name, std::to_string(value), range, meaning,
+            [&value](const std::string &text) { value = dealii::Utilities::string_to_int(text); });
+  }
+
+
+  void Section::add(const std::string &name, bool &value, const std::string &meaning)
+  {
+    declare(name, value ? "true" : "false", TrueOrFalse(), meaning,
+            [&value](const std::string &text) { value = text == "true"; });
+  }
+
+
+  void Section::add(const std::string  &name,
+                    std::string        &value,
+                    const std::string  &meaning,
+                    const AllowedTexts &allowed)
+  {
+    declare(name, value, allowed, meaning, [&value](const std::string &text) { value = text; });
+  }
+
+
+  void Section::declare(const std::string                              &parameter,
                         const std::string                              &value,
+                        const AllowedTexts                             &allowed,
                         const std::string                              &meaning,
-                        const dealii::Patterns::PatternBase            &pattern,
                         const std::function<void(const std::string &)> &take)
   {
-    handler.declare_entry(name, value, pattern, meaning);
-    handler.add_action(name, take);
+    table.values.declare_entry(parameter, value, allowed, meaning);
+    if (take)
+      table.values.add_action(parameter, take);
+    table.declared.push_back({name, parameter, value, meaning, allowed.copy()});
   }
 } // namespace tread
