@@ -168,6 +168,7 @@ namespace tread
     table.values.declare_entry(parameter, value, allowed, meaning);
     if (take)
       table.values.add_action(parameter, take);
-    table.declared.push_back({name, parameter, value, meaning, allowed.copy()});
+    if (!table.find(name + "/" + parameter)) // laws of one kind may share some
+      table.declared.push_back({name, parameter, value, meaning, allowed.copy()});
   }
 } // namespace tread

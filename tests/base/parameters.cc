@@ -158,6 +158,7 @@ namespace base_parameters
       section.choose("Gauge", gauge, "Of the track.");
       section.declare("Wear (mm3 per kJ)", "1", Number(0.), "Of a law.",
                       [&](const std::string &text) { wear = 1e-12 * std::stod(text); });
+      section.declare("Wear (mm3 per kJ)", "1", Number(0.), "Of a law."); // of another one, which shares it
     }
     std::string paths;
     for (const Parameter &parameter : table.parameters())
