@@ -30,7 +30,7 @@ namespace tread
     : scene(scene)
     , comm(comm)
     , mesh(comm,
-           make_bodies(scene, fine_window(scene, window.number, window.tread)),
+           scene.stance().make_bodies(fine_window(scene, window.number, window.tread)),
            scene.time_stepping.levels - 1,
            cell_cost(scene),
            has_window(scene))
@@ -46,7 +46,7 @@ namespace tread
       add_supports();
     else if (!scene.track.has_moving_base())
       dynamics.fix_nodes(dynamics.support_nodes(rail_body));
-    if (scene.rail_mesh())
+    if (scene.shapes().rail_mesh)
       {
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
         dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
@@ -77,7 +77,7 @@ namespace tread
         // The sliding is a velocity, at the middle of the step: there the hub will be half a step further.
         const WheelHub::Motion &hub = wheel->hub.motion;
         const double            x   = place[0] - (hub.x + 0.5 * dynamics.state.time_step * hub.velocity_x),
-                     y              = place[1] - this->scene.first_contact().y;
+                     y              = place[1] - this->scene.shapes().first_contact.y;
         const MotionSection &motion = this->scene.motion;
         return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
       });
@@ -98,7 +98,7 @@ namespace tread
   double added_mass_error_estimate(const Scene &scene, const double mass)
   {
     constexpr double omega = 2. * dealii::numbers::PI * 1e3; // rad/s
-    return mass * omega * omega / hertz(scene, scene.static_load()).stiffness;
+    return mass * omega * omega / scene.stance().ellipse(scene.static_load()).stiffness;
   }
 
 
@@ -172,7 +172,7 @@ namespace tread
       contact.vary_friction([this](const Vector3 place) {
         const Scene &of = this->scene;
         return of.contact.friction_factor(place[0]) *
-               (of.contact.varies_across() ? factor_across(of, place) : 1.);
+               (of.contact.varies_across() ? of.stance().factor_across(place) : 1.);
       });
     if (!section.friction_pressures.empty())
       contact.vary_friction_with_pressure(
