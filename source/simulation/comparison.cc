@@ -189,7 +189,7 @@ namespace tread
       {
         compared.by_patch = add_wheelset(run, summary);
         if (run.model.wheelset.problem().empty())
-          compared.reference_patch = run.model.wheelset.placed().table_nodes();
+          compared.reference_patch = table_nodes(run.model.wheelset.placed());
         if (const std::string varies = friction_varies_at_end(scene, force[2] / scene.wheelset.n_wheels());
             !varies.empty())
           compared.note = "the half-space beside is in steady rolling, but " + varies;

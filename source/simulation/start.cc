@@ -160,7 +160,7 @@ namespace tread
         wheel.target_creepage =
           given_angular_velocity(scene) * scene.stance().rolling_radius() / scene.motion.speed - 1.;
         return predicts_tractions ? [this](const Vector3 &place) {
-          return scene.placed_wheel().traction_over_pressure(place);
+          return traction_over_pressure(scene.placed_wheel(), place);
         } : Tractions();
       }
     const auto of_patch =
