@@ -3,8 +3,8 @@
 #include <tread/base/format.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/assumptions.h>
+#include <tread/scene/checks.h>
 #include <tread/scene/fine_cells.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/surface_laws.h>
 #include <tread/solid/element.h>
 
@@ -16,9 +16,9 @@ namespace tread
   bool settles(const Scene &scene)
   {
     // A smooth twin has the length of the defect, and the inertia of the run that it is for.
-    const bool has_defect = scene.made_defect() || scene.defect.length > 0.;
-    return scene.general.quasi_static && !has_defect && scene.is_round() && !scene.has_uneven_mesh() &&
-           scene.track.foundation == Foundation::rigid;
+    const bool has_defect = scene.shapes().defect || scene.defect.length > 0.;
+    return scene.general.quasi_static && !has_defect && scene.shapes().is_round() &&
+           !scene.shapes().has_uneven_mesh() && scene.track.foundation == Foundation::rigid;
   }
 
 
@@ -67,13 +67,13 @@ namespace tread
         "friction follows the slip speed at once: where pressure times the fall of the coefficient "
         "with slip is above half the shear impedance of the steel, slip oscillates by itself "
         "('Contact/Friction memory (mm)' prevents it)");
-    if (scene.has_narrow_head())
+    if (has_narrow_head(scene))
       list.push_back(
-        "the head was measured up to " + text_in_mm(scene.surfaces().half_width) +
+        "the head was measured up to " + text_in_mm(scene.shapes().surfaces.half_width) +
         " mm beside its middle; beyond, it has the profile's shape, as far from it as where it ends");
     // Found on a rail head: 0.7 % at 2.9 semi-axes, 2.5 % at 1.7, 6 % at 1.2, 30 % at 0.4.
     constexpr double              thick   = 3.;
-    const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+    const reference::HertzEllipse ellipse = scene.stance().ellipse(scene.static_load());
     if (const double axes = std::sqrt(ellipse.semi_axis_x * ellipse.semi_axis_y);
         !scene.wheel.is_full() && scene.wheel.sector_thickness < thick * axes)
       list.push_back(

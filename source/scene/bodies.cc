@@ -5,7 +5,6 @@
 #include <tread/mesh/wheel_body.h>
 #include <tread/mesh/whole_rail.h>
 #include <tread/scene/fine_cells.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/track_parts.h>
 
@@ -96,9 +95,9 @@ namespace tread
 
     Body make_rail(const Scene &scene, const FineZones &zones)
     {
-      if (scene.rail_mesh())
-        return make_mesh_rail(scene.rail_mesh(), zones);
-      const RailTop top{scene.rail_height(), scene.rail.angle()};
+      if (scene.shapes().rail_mesh)
+        return make_mesh_rail(scene.shapes().rail_mesh, zones);
+      const RailTop top{scene.shapes().rail_height, scene.rail.angle()};
       if (scene.rail.is_block())
         {
           RailBlock block;
@@ -136,9 +135,9 @@ namespace tread
         {
           WheelSector sector;
           sector.center_x           = scene.path_begin(number);
-          sector.lift               = scene.first_contact().lift;
-          sector.tread_offset       = scene.surfaces().tread_offset;
-          sector.deviation          = scene.surfaces().deviation;
+          sector.lift               = scene.shapes().first_contact.lift;
+          sector.tread_offset       = scene.shapes().surfaces.tread_offset;
+          sector.deviation          = scene.shapes().surfaces.deviation;
           sector.radius             = scene.wheel.radius;
           sector.thickness          = scene.wheel.sector_thickness;
           sector.width              = scene.wheel.sector_width;
@@ -146,7 +145,7 @@ namespace tread
           sector.arc_begin          = arc.begin;
           sector.arc_end            = arc.end;
           sector.coarsest_cell_size = scene.mesh.coarsest_cell;
-          sector.between_planes     = scene.is_between_planes();
+          sector.between_planes     = scene.shapes().is_between_planes();
           try
             {
               return make_wheel_sector(sector, zone);
@@ -160,9 +159,9 @@ namespace tread
         }
       FullWheel wheel;
       wheel.center_x           = scene.path_begin(number);
-      wheel.lift               = scene.first_contact().lift;
-      wheel.tread_offset       = scene.surfaces().tread_offset;
-      wheel.deviation          = scene.surfaces().deviation;
+      wheel.lift               = scene.shapes().first_contact.lift;
+      wheel.tread_offset       = scene.shapes().surfaces.tread_offset;
+      wheel.deviation          = scene.shapes().surfaces.deviation;
       wheel.radius             = scene.wheel.radius;
       wheel.rim_inner_radius   = scene.wheel.rim_inner_radius;
       wheel.rim_width          = scene.wheel.rim_width;
@@ -199,12 +198,6 @@ namespace tread
     const double       margin  = window_margin(scene),
                  rolling       = (1. + largest_creepage(scene)) * (stretch.end - stretch.begin);
     return {stretch.begin - margin, stretch.end + margin, tread - margin, tread + rolling + margin};
-  }
-
-
-  std::vector<Body> make_bodies(const Scene &scene, const FineWindow &window)
-  {
-    return scene.stance().make_bodies(window);
   }
 
 

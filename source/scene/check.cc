@@ -6,7 +6,6 @@
 #include <tread/scene/assumptions.h>
 #include <tread/scene/checks.h>
 #include <tread/scene/fine_cells.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/recorded.h>
 #include <tread/scene/scene.h>
@@ -87,10 +86,10 @@ namespace tread
 
     void check_surfaces(const Scene &scene)
     {
-      if (scene.rail_mesh())
+      if (scene.shapes().rail_mesh)
         check_mesh_rail(scene);
       // A mesh ends where its own surface does, which has no margin of its own.
-      const double margin = scene.rail_mesh() ? 0. : scene.rail.margin;
+      const double margin = scene.shapes().rail_mesh ? 0. : scene.rail.margin;
       const double from = scene.path_begin(scene.last_wheel()) - margin, to = scene.meshed_end() + margin;
       require(scene.rail_begin() <= from + round_off && scene.rail_end() >= to - round_off,
               "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(scene.rail_begin()) +
@@ -98,16 +97,16 @@ namespace tread
                 " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " + text_in_mm(from) +
                 " to " + text_in_mm(to) + " mm");
       require(
-        std::abs(scene.first_contact().y) < 0.99 * scene.surfaces().half_width,
-        "wheel and rail touch at y = " + text_in_mm(scene.first_contact().y) +
+        std::abs(scene.shapes().first_contact.y) < 0.99 * scene.shapes().surfaces.half_width,
+        "wheel and rail touch at y = " + text_in_mm(scene.shapes().first_contact.y) +
           " mm, beside the running surface: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
           "'Rail/Inclination'");
-      if (const auto &tread = scene.surfaces().tread_offset)
+      if (const auto &tread = scene.shapes().surfaces.tread_offset)
         {
           // The flange of an upright wheel is cut off where it becomes steeper than 1:1: with the edge that
           // is left it would touch as no wheel does.
           constexpr double beside = 0.5e-3, steepest = 0.5; // m, tangent
-          const double     y = scene.first_contact().y;
+          const double     y = scene.shapes().first_contact.y;
           const double     slope =
             std::max(std::abs(tread(y + beside) - tread(y)), std::abs(tread(y) - tread(y - beside))) / beside;
           require(slope <= steepest,
@@ -118,20 +117,20 @@ namespace tread
                     ": an upright wheel has no flange; change 'Wheel/Lateral "
                     "position (mm)', or put the wheel into the track by 'Wheelset/Lateral shift (mm)'");
         }
-      if (scene.has_narrow_head())
-        require(std::max(-scene.patch_extent().begin, scene.patch_extent().end) + scene.mesh.finest_cell <=
-                  scene.surfaces().half_width,
-                "'Rail/Measured head' ends " + text_in_mm(scene.surfaces().half_width) +
+      if (has_narrow_head(scene))
+        require(std::max(-scene.shapes().patch.begin, scene.shapes().patch.end) + scene.mesh.finest_cell <=
+                  scene.shapes().surfaces.half_width,
+                "'Rail/Measured head' ends " + text_in_mm(scene.shapes().surfaces.half_width) +
                   " mm beside its middle, in the patch under the static load or beside it, from y = " +
-                  text_in_mm(scene.patch_extent().begin) + " to " + text_in_mm(scene.patch_extent().end) +
+                  text_in_mm(scene.shapes().patch.begin) + " to " + text_in_mm(scene.shapes().patch.end) +
                   " mm: measure a wider head, or change 'Measured head shift (mm)'");
-      if (!scene.rail.is_block() && !scene.rail_mesh())
+      if (!scene.rail.is_block() && !scene.shapes().rail_mesh)
         {
           const double reach = scene.rail.standard_profile().head_point(RailHead().contact_half_width)[0];
-          require(std::max(-scene.patch_extent().begin, scene.patch_extent().end) + scene.mesh.finest_cell <=
+          require(std::max(-scene.shapes().patch.begin, scene.shapes().patch.end) + scene.mesh.finest_cell <=
                     reach,
-                  "the patch under the static load, from y = " + text_in_mm(scene.patch_extent().begin) +
-                    " to " + text_in_mm(scene.patch_extent().end) +
+                  "the patch under the static load, from y = " + text_in_mm(scene.shapes().patch.begin) +
+                    " to " + text_in_mm(scene.shapes().patch.end) +
                     " mm, leaves what of the rail is meshed for contact, up to " + text_in_mm(reach) +
                     " mm from the middle: change 'Wheel/Tread profile', 'Wheel/Lateral position (mm)' or "
                     "'Rail/Inclination'");
@@ -141,9 +140,9 @@ namespace tread
 
     void check_defect(const Scene &scene)
     {
-      if (!scene.made_defect())
+      if (!scene.shapes().defect)
         return;
-      const Defect       &made = *scene.made_defect();
+      const Defect       &made = *scene.shapes().defect;
       std::vector<double> begins(made.repeated_at);
       begins.push_back(made.begin);
       std::sort(begins.begin(), begins.end());
@@ -205,7 +204,7 @@ namespace tread
     {
       if (!has_window(scene))
         return;
-      const double a     = hertz(scene, scene.static_load()).semi_axis_x,
+      const double a     = scene.stance().ellipse(scene.static_load()).semi_axis_x,
                    least = 1.25 * a + 2. * scene.mesh.finest_cell;
       require(window_margin(scene) >= least * (1. - 1e-9),
               "'Mesh/Window margin (mm)' " + text_in_mm(scene.mesh.window_margin) +
@@ -221,7 +220,7 @@ namespace tread
 
     void check_mesh(const Scene &scene)
     {
-      const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+      const reference::HertzEllipse ellipse = scene.stance().ellipse(scene.static_load());
       const double                  a = ellipse.semi_axis_x, b = ellipse.semi_axis_y;
       const double                  finest = scene.mesh.finest_cell, largest_finest = 0.45 * std::min(a, b);
       require(finest <= largest_finest,
@@ -229,8 +228,8 @@ namespace tread
                 text_in_mm(a) + " and " + text_in_mm(b) + " mm; at most " + text_in_mm(largest_finest));
       require(fine_half_width(scene) >= needed_half_width(scene) * (1. - 1e-9),
               "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width(scene)) +
-                " must hold the patch from y = " + text_in_mm(scene.patch_extent().begin) + " to " +
-                text_in_mm(scene.patch_extent().end) + " mm; at least " +
+                " must hold the patch from y = " + text_in_mm(scene.shapes().patch.begin) + " to " +
+                text_in_mm(scene.shapes().patch.end) + " mm; at least " +
                 text_in_mm(needed_half_width(scene)));
       const double longest = 0.7 * a;
       require(scene.mesh.path_cell <= longest,
@@ -247,13 +246,13 @@ namespace tread
 
       // Around the finest cells there is room for at least one more, if the rail does not go on as its image.
       const double beside = std::abs(path_y(scene));
-      require(scene.is_between_planes() ||
+      require(scene.shapes().is_between_planes() ||
                 beside + fine_half_width(scene) <= scene.rail_half_width() - finest,
               "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width(scene)) +
                 (beside > 0. ? " about y = " + text_in_mm(path_y(scene)) + " mm" : "") +
                 " must be below the half width of the rail; at most " +
                 text_in_mm(scene.rail_half_width() - finest - beside));
-      require(scene.is_between_planes() ||
+      require(scene.shapes().is_between_planes() ||
                 beside + fine_half_width(scene) <= scene.wheel.half_width() - finest,
               "'Mesh/Fine half width (mm)' " + text_in_mm(fine_half_width(scene)) +
                 " must be below half of the wheel's width; at most " +
@@ -286,7 +285,7 @@ namespace tread
               name + " needs a rail that yields: 'Rail/Yield stress (MPa)'");
       require(
         !scene.ratcheting.uniform ||
-          (!scene.is_positioned() && !scene.has_defect() && !scene.rail.is_meshed() &&
+          (!scene.is_positioned() && !scene.shapes().defect && !scene.rail.is_meshed() &&
            scene.n_wheels() == 1 && scene.rail.material.plastic_zones.empty()),
         "'Ratcheting/Uniform rail' needs one wheel that stands upright and a rail that is alike along its "
         "length: no defect, mesh file, slices or plastic zones");
@@ -374,10 +373,10 @@ namespace tread
               " does not hold the two layers of cells from which the stress at the surface follows; at least "
               "twice 'Mesh/Finest cell (mm)', " +
               text_in_mm(2. * scene.mesh.finest_cell));
-    if (scene.peak_stress.place == PeakPlace::trailing_edge && scene.made_defect())
+    if (scene.peak_stress.place == PeakPlace::trailing_edge && scene.shapes().defect)
       {
-        const Defect &made = *scene.made_defect();
-        const double  off  = std::abs(made.y_middle - scene.first_contact().y) - peak_half_width(scene);
+        const Defect &made = *scene.shapes().defect;
+        const double  off = std::abs(made.y_middle - scene.shapes().first_contact.y) - peak_half_width(scene);
         require(
           off < 0.5 * made.width,
           "the region of 'Peak stress' does not meet the defect, whose 'Defect/Lateral position (mm)' is " +
@@ -422,11 +421,11 @@ namespace tread
       require(scene.solid.mass_damping == 0., "'Solid/Mass damping (1 per s)' must be 0 with " + cause +
                                                 ": it slows motion that is part of the answer");
     };
-    if (scene.made_defect())
+    if (scene.shapes().defect)
       needs_inertia("'Defect/Shape' " + scene.defect.shape);
-    if (!scene.is_round())
+    if (!scene.shapes().is_round())
       needs_inertia("'Wheel/Deviation'");
-    if (scene.has_uneven_mesh())
+    if (scene.shapes().has_uneven_mesh())
       needs_inertia("a 'Rail/Mesh file' whose running surface changes along the path by " +
                     uneven_in_words(scene));
     if (scene.track.foundation != Foundation::rigid)
@@ -444,51 +443,49 @@ namespace tread
   }
 
 
-  double Scene::traction_coefficient(const unsigned int number) const
+  bool has_narrow_head(const Scene &scene)
   {
-    return number == 0 || further_wheels.traction_coefficients.empty()
-             ? motion.traction_coefficient
-             : further_wheels.traction_coefficients[number - 1];
+    return !scene.rail.measured_head.empty() && scene.shapes().surfaces.half_width < running_half_width;
   }
 
 
-  void Scene::check(const SceneUse use) const
+  void check_sections(const Scene &scene, const SceneUse use)
   {
-    wear_law(*this); // which says what is wrong with its numbers
-    indices_of_damage(*this);
+    wear_law(scene); // which says what is wrong with its numbers
+    indices_of_damage(scene);
     constexpr double softest = 1e6; // Pa
-    require(damage.shear_strength == 0. || damage.shear_strength >= softest,
-            "'Damage/Shear strength (MPa)' " + text_of(1e-6 * damage.shear_strength) +
+    require(scene.damage.shear_strength == 0. || scene.damage.shear_strength >= softest,
+            "'Damage/Shear strength (MPa)' " + text_of(1e-6 * scene.damage.shear_strength) +
               " is below that of any metal; 0 where it is not known, or at least 1");
-    if (is_positioned())
+    if (scene.is_positioned())
       {
-        require(use == SceneUse::roll || motion.drive != Drive::torque,
+        require(use == SceneUse::roll || scene.motion.drive != Drive::torque,
                 "'Motion/Drive' cannot be torque where 'Wheelset' has a position and half-space theory "
                 "answers: it takes the creepage that is given");
-        return check_wheelset(*this);
+        return check_wheelset(scene);
       }
-    require(guidance.kind == Guidance::rigid,
-            "'Guidance/Kind' " + name_of(guidance.kind) +
+    require(scene.guidance.kind == Guidance::rigid,
+            "'Guidance/Kind' " + name_of(scene.guidance.kind) +
               " moves a wheelset in its track: 'Wheelset/Lateral shift (mm)' puts it there");
-    require(!rail.is_sliced(),
+    require(!scene.rail.is_sliced(),
             "'Rail/Shape' slices is for a wheel in a position of its wheelset: 'Wheelset/Lateral "
             "shift (mm)' puts it there");
-    general.check();
-    check_motion(*this);
-    rail.check();
-    check_surfaces(*this);
-    wheel.check();
-    further_wheels.check(2. * wheel.radius);
+    scene.general.check();
+    check_motion(scene);
+    scene.rail.check();
+    check_surfaces(scene);
+    scene.wheel.check();
+    scene.further_wheels.check(2. * scene.wheel.radius);
     if (use == SceneUse::half_space)
       return;
-    check_defect(*this);
-    check_peak_stress(*this);
-    mesh.check();
-    check_mesh(*this);
-    check_track(*this);
-    solid.check();
-    check_plasticity(*this);
-    check_ratcheting(*this);
-    check_numerics(*this);
+    check_defect(scene);
+    check_peak_stress(scene);
+    scene.mesh.check();
+    check_mesh(scene);
+    check_track(scene);
+    scene.solid.check();
+    check_plasticity(scene);
+    check_ratcheting(scene);
+    check_numerics(scene);
   }
 } // namespace tread

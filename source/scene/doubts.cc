@@ -86,12 +86,12 @@ namespace tread
     /// rest, and the way into the defect is missing. Corrugation may reach over all of the path.
     std::string begins_on_defect(const Scene &scene)
     {
-      if (!scene.has_defect() || scene.defect.shape == "corrugation" || scene.static_load() <= 0.)
+      if (!scene.shapes().defect || scene.defect.shape == "corrugation" || scene.static_load() <= 0.)
         return "";
       constexpr unsigned int n     = 5; // places over the patch, along and across
-      const Defect          &made  = *scene.made_defect();
-      const double           a     = hertz(scene, scene.static_load()).semi_axis_x;
-      const auto            &patch = scene.patch_extent();
+      const Defect          &made  = *scene.shapes().defect;
+      const double           a     = scene.stance().ellipse(scene.static_load()).semi_axis_x;
+      const auto            &patch = scene.shapes().patch;
       for (unsigned int number = 0; number < scene.n_wheels(); ++number)
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
@@ -146,8 +146,8 @@ namespace tread
       const double     detail = detail_along(scene), load = scene.static_load();
       if (!(detail > 0. && load > 0.))
         return "";
-      const Defect                *made     = scene.made_defect();
-      const double                 cell     = made && scene.is_round()
+      const Defect                *made     = scene.shapes().defect.get();
+      const double                 cell     = made && scene.shapes().is_round()
                                                 ? cell_along(scene, made->begin, made->begin + made->length)
                                                 : cell_along(scene, scene.path_begin(), scene.meshed_end());
       const reference::RollingCase touching = half_space_case(scene, load, 0.);
@@ -160,23 +160,23 @@ namespace tread
         "%s has detail along the rail of %.2g um within a cell of %.3g mm, noise or "
         "a step, which a pressure of %.0f %% of Hertz's presses flat (above %g %%): pressure and stress "
         "depend on the cells; %s, or use smaller cells",
-        scene.is_round() ? "'Defect/Profile file'" : "'Wheel/Deviation'", 1e6 * detail, 1e3 * cell,
+        scene.shapes().is_round() ? "'Defect/Profile file'" : "'Wheel/Deviation'", 1e6 * detail, 1e3 * cell,
         100. * share, 100. * large,
-        scene.is_round() ? "smooth the file, give 'Defect/Ramp (mm)' where it begins with a step"
-                         : "give 'Wheel/Deviation smoothing (mm)'");
+        scene.shapes().is_round() ? "smooth the file, give 'Defect/Ramp (mm)' where it begins with a step"
+                                  : "give 'Wheel/Deviation smoothing (mm)'");
     }
 
     std::string missed_defect(const Scene &scene)
     {
-      if (!scene.has_defect() || !misses_defect(scene))
+      if (!scene.shapes().defect || !misses_defect(scene))
         return "";
-      const Defect &made = *scene.made_defect();
+      const Defect &made = *scene.shapes().defect;
       return format(
         "the contact does NOT reach the defect, from %.2f to %.2f mm: the wheel rolls from %.2f to %.2f "
         "mm, and its patch is from y = %.2f to %.2f mm; look at 'Defect/Position (mm)', 'Lateral position "
         "(mm)', 'Motion/Start (mm)' and 'Rolled distance (mm)'",
         1e3 * made.begin, 1e3 * (made.begin + made.length), 1e3 * scene.path_begin(),
-        1e3 * scene.meshed_end(), 1e3 * scene.patch_extent().begin, 1e3 * scene.patch_extent().end);
+        1e3 * scene.meshed_end(), 1e3 * scene.shapes().patch.begin, 1e3 * scene.shapes().patch.end);
     }
 
     std::string narrow_island(const Scene &scene)
@@ -232,7 +232,7 @@ namespace tread
     /// Of the track that runs along: a mass that is right at low frequencies.
     std::string blow_on_a_mass(const Scene &scene)
     {
-      return scene.track.runs_along() && (!scene.rolls_smoothly() || scene.rail.is_sliced())
+      return scene.track.runs_along() && (!scene.shapes().are_smooth() || scene.rail.is_sliced())
                ? "'Track/Foundation' co-running: its mass stands for the track at low frequencies and makes "
                  "blows within some "
                  "milliseconds too large, by half at a crossing and twice at a short dip; beam finds them"
@@ -243,7 +243,7 @@ namespace tread
     std::string soft_layer_on_beam(const Scene &scene)
     {
       constexpr double most = 0.1; // of the faces: an end post is less
-      const auto      &rail = scene.rail_mesh();
+      const auto      &rail = scene.shapes().rail_mesh;
       if (!scene.track.is_beam() || !rail)
         return "";
       unsigned int n = 0, n_others = 0;
@@ -314,7 +314,7 @@ namespace tread
         const auto usual =
           std::find_if(usual_values.begin(), usual_values.end(),
                        [path = path](const Usual &u) { return std::string(u.path) == path; });
-        for (const auto &[number, springs] : scene.springs_of_supports())
+        for (const auto &[number, springs] : scene.tables().support_springs)
           if (const double own = springs.*value / in_si; own > usual->largest)
             {
               list.push_back(format("'Track/Support file', support %d: %s %g is far from what there is on "
@@ -337,37 +337,37 @@ namespace tread
     if (stands_in_track || scene.is_positioned())
       if (const std::string elsewhere = flange_back_elsewhere(scene); !elsewhere.empty())
         list.push_back(elsewhere);
-    if (scene.motion_of_wheelset() &&
-        scene.motion_of_wheelset()->largest_lateral_speed() > largest_lateral_speed)
+    if (scene.tables().wheelset_motion &&
+        scene.tables().wheelset_motion->largest_lateral_speed() > largest_lateral_speed)
       list.push_back(
         format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
                "(above %g m/s): are its shifts in mm and its times in s?",
-               scene.motion_of_wheelset()->largest_lateral_speed(), largest_lateral_speed));
-    if (!scene.is_round() && scene.largest_deviation() < least_height)
+               scene.tables().wheelset_motion->largest_lateral_speed(), largest_lateral_speed));
+    if (!scene.shapes().is_round() && scene.shapes().largest_deviation < least_height)
       list.push_back(
         "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
         "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");
     if (scene.rail.is_sliced())
       for (const std::string &doubt : scene.wheel_on_rail().rail_surface().doubts())
         list.push_back("'Rail/Slices': " + doubt);
-    if (scene.has_defect() && !scene.defect.profile_file.empty() && scene.defect.depth == 0. &&
-        scene.made_defect()->depth < least_height)
+    if (scene.shapes().defect && !scene.defect.profile_file.empty() && scene.defect.depth == 0. &&
+        scene.shapes().defect->depth < least_height)
       list.push_back(
         format("'Defect/Profile file': heights of at most %.3g um, less than a ground surface is "
                "rough; they are read in mm: are they in m?",
-               1e6 * scene.made_defect()->depth));
+               1e6 * scene.shapes().defect->depth));
     return list;
   }
 
 
   double detail_along(const Scene &scene)
   {
-    const Defect *made    = scene.made_defect();
+    const Defect *made    = scene.shapes().defect.get();
     const bool    is_file = made && (scene.defect.shape == "profile" || scene.defect.shape == "map");
-    if (!is_file && scene.is_round())
+    if (!is_file && scene.shapes().is_round())
       return 0.;
     constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
-    const double           a       = hertz(scene, scene.static_load()).semi_axis_x;
+    const double           a       = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     double                 largest = 0.;
     const auto             look = [&](const double cell, const double from, const double to, const bool alike,
                           const std::function<double(double, double)> &height) {
@@ -376,8 +376,8 @@ namespace tread
       const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
       for (unsigned int line = 0; line < n_across; ++line)
         {
-          const double y = scene.patch_extent().begin +
-                           (scene.patch_extent().end - scene.patch_extent().begin) * (line + 0.5) / n_across;
+          const double y = scene.shapes().patch.begin +
+                           (scene.shapes().patch.end - scene.shapes().patch.begin) * (line + 0.5) / n_across;
           // Where the nodes lie is not known: the way between them begins with the defect.
           std::vector<double> squares(n, 0.);
           for (unsigned int k = 0; k < n; ++k)
@@ -415,10 +415,10 @@ namespace tread
                  [&](const double x, const double y) { return made->height(x, y); });
           }
       }
-    if (!scene.is_round())
+    if (!scene.shapes().is_round())
       look(cell_along(scene, scene.path_begin(), scene.meshed_end()), -a, scene.motion.meshed_distance() + a,
            false, [&](const double way, const double y) {
-             return scene.surfaces().deviation(way / scene.wheel.radius, y);
+             return scene.shapes().surfaces.deviation(way / scene.wheel.radius, y);
            });
     return largest;
   }
@@ -433,8 +433,9 @@ namespace tread
           blow_on_a_mass(scene)})
       if (!doubt.empty())
         list.push_back(doubt);
-    if (scene.rail_mesh())
-      list.insert(list.end(), scene.rail_mesh()->mesh.doubts.begin(), scene.rail_mesh()->mesh.doubts.end());
+    if (scene.shapes().rail_mesh)
+      list.insert(list.end(), scene.shapes().rail_mesh->mesh.doubts.begin(),
+                  scene.shapes().rail_mesh->mesh.doubts.end());
     return list;
   }
 
@@ -447,15 +448,15 @@ namespace tread
     const double           cell      = scene.mesh.finest_cell;
     double                 sum       = 0.;
     unsigned int           n         = 0;
-    for (double y = scene.patch_extent().begin + cell; y + 2. * cell <= scene.patch_extent().end; y += cell)
+    for (double y = scene.shapes().patch.begin + cell; y + 2. * cell <= scene.shapes().patch.end; y += cell)
       {
         double of_node[4]; // around the second of three cells
         for (unsigned int i = 0; i < 4; ++i)
-          of_node[i] = scene.surfaces().gap(y + (i - 1.) * cell);
+          of_node[i] = scene.shapes().surfaces.gap(y + (i - 1.) * cell);
         for (unsigned int k = 1; k < n_between; ++k)
           {
             const double s = double(k) / n_between;
-            if (const double off = scene.surfaces().gap(y + s * cell) - cubic_between(of_node, s);
+            if (const double off = scene.shapes().surfaces.gap(y + s * cell) - cubic_between(of_node, s);
                 std::isfinite(off))
               {
                 sum += off * off;
@@ -469,16 +470,16 @@ namespace tread
 
   bool misses_defect(const Scene &scene)
   {
-    const Defect &made = *scene.made_defect();
+    const Defect &made = *scene.shapes().defect;
     if (scene.static_load() <= 0.)
       return false;
     const Scene::Range beyond = reach_of(scene, -extremes_of(made.shape).first * made.depth);
     // As wide as the zone of fine cells would be, for what inertia adds to the load.
     constexpr double room = 1.35;
-    const double     a    = room * hertz(scene, scene.static_load()).semi_axis_x + scene.mesh.finest_cell +
+    const double a = room * scene.stance().ellipse(scene.static_load()).semi_axis_x + scene.mesh.finest_cell +
                      beyond.begin,
-                 middle     = 0.5 * (scene.patch_extent().begin + scene.patch_extent().end),
-                 half_width = room * 0.5 * (scene.patch_extent().end - scene.patch_extent().begin) +
+                 middle     = 0.5 * (scene.shapes().patch.begin + scene.shapes().patch.end),
+                 half_width = room * 0.5 * (scene.shapes().patch.end - scene.shapes().patch.begin) +
                               scene.mesh.finest_cell + beyond.end;
     if (std::abs(made.y_middle - middle) > half_width + 0.5 * made.width)
       return true;
@@ -491,5 +492,23 @@ namespace tread
           return true;
       return false;
     });
+  }
+
+
+  std::string defect_in_words(const Scene &scene)
+  {
+    const Defect     *made = scene.shapes().defect.get();
+    const std::string wheel_is =
+      scene.shapes().is_round() ? "" : "the wheel is not round: " + scene.shapes().wheel_deviation;
+    if (!made)
+      return wheel_is;
+    return (scene.shapes().is_round() ? "" : wheel_is + "; ") +
+           format("defect: x = %.2f to %.2f mm, %.3f mm deep%s", 1e3 * made->begin,
+                  1e3 * (made->begin + made->length), 1e3 * made->depth,
+                  made->is_a_bump() ? "; it rises ABOVE the rail more than it lies below" : "") +
+           (made->repeated_at.empty()
+              ? ""
+              : format("; %u more like it", static_cast<unsigned int>(made->repeated_at.size()))) +
+           (misses_defect(scene) ? "; the contact does NOT reach it" : "");
   }
 } // namespace tread

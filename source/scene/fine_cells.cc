@@ -2,7 +2,6 @@
 // Where cells are fine: zones, windows, what of a wheel is meshed.
 #include <tread/reference/hertz.h>
 #include <tread/scene/fine_cells.h>
-#include <tread/scene/half_space_case.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -13,10 +12,10 @@ namespace tread
 {
   double needed_half_width(const Scene &scene)
   {
-    if (scene.is_between_planes())
-      return scene.surfaces().half_width;
+    if (scene.shapes().is_between_planes())
+      return scene.shapes().surfaces.half_width;
     return 1.1 *
-             std::max(scene.patch_extent().end - path_y(scene), path_y(scene) - scene.patch_extent().begin) +
+             std::max(scene.shapes().patch.end - path_y(scene), path_y(scene) - scene.shapes().patch.begin) +
            scene.mesh.finest_cell;
   }
 
@@ -30,19 +29,20 @@ namespace tread
     constexpr double room_for_dynamic_load = 1.35;
     const double     of_round =
       (scene.general.quasi_static ? 1. : room_for_dynamic_load) * needed_half_width(scene);
-    if (scene.is_round())
+    if (scene.shapes().is_round())
       return of_round;
     constexpr double of_body = 0.75; // of its half width, beside which there must be room for coarser cells
     const double     widest =
       of_body * std::min(scene.rail_half_width(), scene.wheel.half_width()) - std::abs(path_y(scene));
-    return std::max(of_round, std::min(of_round + reach_of(scene, scene.largest_deviation()).end, widest));
+    return std::max(of_round,
+                    std::min(of_round + reach_of(scene, scene.shapes().largest_deviation).end, widest));
   }
 
 
   double path_y(const Scene &scene)
   {
-    const double cell = scene.mesh.finest_cell, y = scene.first_contact().y;
-    return y + cell * std::trunc((0.5 * (scene.patch_extent().begin + scene.patch_extent().end) - y) / cell);
+    const double cell = scene.mesh.finest_cell, y = scene.shapes().first_contact.y;
+    return y + cell * std::trunc((0.5 * (scene.shapes().patch.begin + scene.shapes().patch.end) - y) / cell);
   }
 
 
@@ -51,7 +51,8 @@ namespace tread
     constexpr double with_traction = 0.01;
     if (scene.motion.angular_velocity)
       return std::max(with_traction,
-                      *scene.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1.);
+                      *scene.motion.angular_velocity * scene.stance().rolling_radius() / scene.motion.speed -
+                        1.);
     return std::max(with_traction, scene.motion.creepage.value_or(0.));
   }
 
@@ -62,7 +63,7 @@ namespace tread
     constexpr double spare = 0.25;
     const double     way   = scene.motion.meshed_distance();
     return way + std::max(0., largest_creepage(scene) * way -
-                                spare * hertz(scene, scene.static_load()).semi_axis_x);
+                                spare * scene.stance().ellipse(scene.static_load()).semi_axis_x);
   }
 
 
@@ -99,7 +100,7 @@ namespace tread
            {"several wheels", scene.n_wheels() > 1},
            {"several passages", scene.motion.passages > 1},
            {"'Motion/Longest distance (mm)'", scene.motion.longest_distance > 0.},
-           {"a rail that is meshed in a file", bool(scene.rail_mesh())},
+           {"a rail that is meshed in a file", bool(scene.shapes().rail_mesh)},
            {"steel that yields", yields(scene.rail.material) || yields(scene.wheel.material)},
            {"'Damage/Record'", scene.damage.record},
            {"section 'Peak stress'", scene.peak_stress.is_wanted()},
@@ -117,8 +118,9 @@ namespace tread
     // Forces then differ by 0.1 to 0.2 % of their swing (doc/performance.md); of flats nobody has looked.
     constexpr double pays = 4.;
     return scene.mesh.window == WindowUse::always ||
-           (scene.mesh.window == WindowUse::automatic && scene.track.has_supports() && scene.is_round() &&
-            keeps_mesh(scene).empty() && scene.motion.rolled_distance >= pays * usual_window(scene));
+           (scene.mesh.window == WindowUse::automatic && scene.track.has_supports() &&
+            scene.shapes().is_round() && keeps_mesh(scene).empty() &&
+            scene.motion.rolled_distance >= pays * usual_window(scene));
   }
 
 
@@ -128,8 +130,9 @@ namespace tread
     // and on a track of many spans as long as twenty. @see doc/performance.md
     const double semi_axes =
       (scene.track.has_supports() ? 12. : 2.5) * std::pow(scene.general.density_scale, 0.25);
-    return scene.mesh.window_length > 0. ? scene.mesh.window_length
-                                         : semi_axes * hertz(scene, scene.static_load()).semi_axis_x;
+    return scene.mesh.window_length > 0.
+             ? scene.mesh.window_length
+             : semi_axes * scene.stance().ellipse(scene.static_load()).semi_axis_x;
   }
 
 
@@ -171,7 +174,8 @@ namespace tread
     constexpr double semi_axes = 1.75, cells = 2.;
     return scene.mesh.window_margin > 0.
              ? scene.mesh.window_margin
-             : semi_axes * hertz(scene, scene.static_load()).semi_axis_x + cells * scene.mesh.finest_cell;
+             : semi_axes * scene.stance().ellipse(scene.static_load()).semi_axis_x +
+                 cells * scene.mesh.finest_cell;
   }
 
 
@@ -198,18 +202,18 @@ namespace tread
     if (!(height > 0.))
       return {0., 0.};
     // Along the path the wheel stands x^2 / 2R above the rail.
-    const double along = std::sqrt(2. * scene.rolling_radius() * height);
+    const double along = std::sqrt(2. * scene.stance().rolling_radius() * height);
     // Across, where the gap is larger than the height from here on.
     constexpr double step   = 0.1e-3; // m
-    const double     least  = scene.surfaces().gap(scene.first_contact().y);
+    const double     least  = scene.shapes().surfaces.gap(scene.shapes().first_contact.y);
     double           across = 0.;
     for (const double side : {-1., 1.})
       {
-        const double edge    = side > 0. ? scene.patch_extent().end : scene.patch_extent().begin;
+        const double edge    = side > 0. ? scene.shapes().patch.end : scene.shapes().patch.begin;
         double       touched = 0.;
-        for (double beside = 0.; std::abs(edge + side * beside) <= scene.surfaces().half_width;
+        for (double beside = 0.; std::abs(edge + side * beside) <= scene.shapes().surfaces.half_width;
              beside += step)
-          if (const double gap = scene.surfaces().gap(edge + side * beside) - least;
+          if (const double gap = scene.shapes().surfaces.gap(edge + side * beside) - least;
               std::isfinite(gap) && gap <= height)
             touched = beside + step;
         across = std::max(across, touched);

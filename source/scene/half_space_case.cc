@@ -15,6 +15,13 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Flatter gaps touch along a line, for which Hertz's ellipse means nothing, m.
+    constexpr double largest_lateral_radius = 10.;
+  } // namespace
+
+
   reference::Elastic elastic_of(const MaterialSection &material)
   {
     return {material.elastic().young_modulus, material.elastic().poisson_ratio};
@@ -26,8 +33,8 @@ namespace tread
                                          const double traction_coefficient)
   {
     reference::RollingCase c;
-    c.curvature_x  = 0.5 / scene.rolling_radius();
-    c.curvature_y  = 0.5 / scene.lateral_radius();
+    c.curvature_x  = 0.5 / scene.stance().rolling_radius();
+    c.curvature_y  = 0.5 / lateral_radius(scene);
     c.normal_force = normal_force;
     c.speed        = scene.motion.speed;
     set_friction(c, scene, scene.path_end());
@@ -37,11 +44,11 @@ namespace tread
     c.traction_coefficient          = traction_coefficient;
     c.lateral_creepage              = scene.motion.lateral_creepage;
     c.spin                          = scene.motion.spin;
-    const RunningSurfaces &surfaces = scene.surfaces();
-    const double           y_middle = scene.first_contact().y;
+    const RunningSurfaces &surfaces = scene.shapes().surfaces;
+    const double           y_middle = scene.shapes().first_contact.y;
     if (scene.contact.varies_across())
       c.place_factor = [&scene, y_middle](const double, const double y) {
-        return factor_across(scene, Vector3{0., y_middle + y, 0., 0.});
+        return scene.stance().factor_across(Vector3{0., y_middle + y, 0., 0.});
       };
     if (!scene.rail.is_block() || surfaces.tread_offset)
       c.gap = [curvature_x = c.curvature_x, surfaces, y_middle,
@@ -51,7 +58,7 @@ namespace tread
     if (surfaces.tread_offset)
       c.radius_change = [offset    = surfaces.tread_offset, y_middle,
                          at_middle = surfaces.tread_offset(y_middle),
-                         radius    = scene.rolling_radius()](const double y) {
+                         radius    = scene.stance().rolling_radius()](const double y) {
         return (offset(y_middle + y) - at_middle) / radius;
       };
     // 50 elements along a patch, or as many elements in a wide one: creepages within 0.03 % of the limit for
@@ -101,7 +108,7 @@ namespace tread
 
   void require_half_space(const Scene &scene)
   {
-    if (scene.is_between_planes())
+    if (scene.shapes().is_between_planes())
       throw InputError("a rail between two planes of symmetry, in plane strain, has no half-space answer");
   }
 
@@ -177,7 +184,7 @@ namespace tread
       const double modulus =
         reference::combine(elastic_of(scene.wheel.material), elastic_of(scene.rail.material)).hertz_modulus();
       const reference::HertzLine line =
-        reference::hertz_line(scene.rolling_radius(), modulus, normal_force / width);
+        reference::hertz_line(scene.stance().rolling_radius(), modulus, normal_force / width);
       // Of bodies as thick as the sector, held at their backs (Johnson 1985, section 5.6).
       const double nu = scene.wheel.material.elastic().poisson_ratio;
       const double per_force =
@@ -196,43 +203,52 @@ namespace tread
   } // namespace
 
 
-  reference::HertzEllipse hertz(const Scene &scene, const double normal_force)
-  {
-    return scene.stance().ellipse(normal_force);
-  }
-
-
   reference::HertzEllipse UprightWheel::ellipse(const double normal_force) const
   {
-    if (scene.is_between_planes())
+    if (scene.shapes().is_between_planes())
       return line_between_planes(scene, normal_force);
     return hertz(half_space_case(scene, normal_force, 0.));
   }
 
 
+  double lateral_radius(const Scene &scene)
+  {
+    if (!has_fitted_lateral_radius(scene))
+      return scene.rail.is_block() ? scene.rail.crown_radius : scene.rail.standard_profile().crown_radius();
+    return std::min(scene.shapes().first_contact.lateral_radius, largest_lateral_radius);
+  }
+
+
+  bool has_fitted_lateral_radius(const Scene &scene)
+  {
+    return scene.shapes().surfaces.tread_offset || scene.rail.angle() != 0. ||
+           !scene.rail.measured_head.empty() || scene.rail.is_meshed();
+  }
+
+
   reference::HertzEllipse hertz_over_patch(const Scene &scene, const double normal_force)
   {
-    reference::HertzEllipse ellipse = hertz(scene, normal_force);
-    if (scene.is_between_planes() || !scene.has_fitted_lateral_radius())
+    reference::HertzEllipse ellipse = scene.stance().ellipse(normal_force);
+    if (scene.shapes().is_between_planes() || !has_fitted_lateral_radius(scene))
       return ellipse;
     reference::RollingCase c = half_space_case(scene, normal_force, 0.);
     for (unsigned int pass = 0; pass < 30; ++pass)
       {
         const double radius =
-          fitted_lateral_radius(scene.surfaces(), scene.first_contact().y, ellipse.semi_axis_y);
+          fitted_lateral_radius(scene.shapes().surfaces, scene.shapes().first_contact.y, ellipse.semi_axis_y);
         const double before = ellipse.semi_axis_y;
-        c.curvature_y       = 0.5 / std::min(radius, Scene::largest_lateral_radius);
+        c.curvature_y       = 0.5 / std::min(radius, largest_lateral_radius);
         ellipse             = hertz(c);
         if (std::abs(ellipse.semi_axis_y - before) < 1e-6 * before)
           return ellipse;
       }
-    return hertz(scene, normal_force); // two sizes in turn: that of 5 mm
+    return scene.stance().ellipse(normal_force); // two sizes in turn: that of 5 mm
   }
 
 
   double half_space_stretch(const Scene &scene)
   {
-    const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+    const reference::HertzEllipse ellipse = scene.stance().ellipse(scene.static_load());
     const auto                    stretch = [&](const ElasticMaterial &material) {
       const double nu = material.poisson_ratio;
       return -(1. + nu) * (1. - 2. * nu) / material.young_modulus * ellipse.semi_axis_y /
@@ -364,7 +380,7 @@ namespace tread
     summary.set("lateral_force_N", answer.force[1]);
     summary.set("traction_coefficient", normal > 0. ? answer.force[0] / normal : 0.);
     summary.set("friction_coefficient", scene.contact.friction_coefficient);
-    summary.set("first_contact_y_m", scene.first_contact().y);
+    summary.set("first_contact_y_m", scene.shapes().first_contact.y);
 
     // A wheel that has lifted off is compared with the patch of the static load.
     const reference::HertzEllipse ellipse =
@@ -377,7 +393,7 @@ namespace tread
     with_hertz("patch_area_m2", "patch area, mm2", 1e6, patch.area, ellipse.area);
     with_hertz("semi_axis_x_m", "semi-axis a, mm", 1e3, patch.semi_axis_x, ellipse.semi_axis_x);
     // By moments of the pressure of an ellipse, which a line has not.
-    if (scene.is_between_planes())
+    if (scene.shapes().is_between_planes())
       {
         summary.set("semi_axis_y_m", patch.semi_axis_y);
         summary.set("pressure_semi_axis_x_m", patch.pressure_semi_axis_x);

@@ -1,12 +1,64 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // From a parameter file and settings to a scene that has been checked.
 #include <tread/base/format.h>
+#include <tread/geometry/slice_list.h>
+#include <tread/scene/checks.h>
 #include <tread/scene/scene.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
 
 namespace tread
 {
+  namespace
+  {
+    /// Note the files that parameters name, with their contents.
+    void note_files(ParameterFile &input, const Scene &scene)
+    {
+      std::error_code cannot_tell;
+      for (const auto &[name, file] :
+           {std::pair("Wheel/Tread profile", scene.wheel.tread_profile),
+            std::pair("Wheel/Deviation", scene.wheel.deviation),
+            std::pair("Rail/Measured head", scene.rail.measured_head),
+            std::pair("Rail/Slices", scene.rail.slices), std::pair("Rail/Mesh file", scene.rail.mesh_file),
+            std::pair("Defect/Profile file", scene.defect.profile_file),
+            std::pair("Guidance/File", scene.guidance.file),
+            std::pair("Track/Support file", scene.track.support_file),
+            std::pair("Track/Beam file", scene.track.beam_file)})
+        if (const std::string path = input.located(file);
+            !file.empty() && std::filesystem::is_regular_file(path, cannot_tell))
+          {
+            input.note(name, path);
+            // A slice may stand in a list more than once.
+            const std::vector<std::string> named = slices_named_in(path);
+            for (const std::string &slice : std::set<std::string>(named.begin(), named.end()))
+              input.note(std::string(name) + ": " + slice,
+                         (std::filesystem::path(path).parent_path() / slice).string());
+          }
+    }
+
+    /// Put the wheelset where its motion begins. @throws InputError
+    void stand_at_start_of(const WheelsetMotion &table, WheelsetSection &wheelset, MotionSection &motion)
+    {
+      const Across start = table.at(0., {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
+      require(!(wheelset.both_wheels && table.has_roll()),
+              "'Guidance/File' has roll_mrad, which is found where 'Wheelset/Both wheels' is true");
+      wheelset.shift = start.y;
+      wheelset.yaw   = start.yaw;
+      wheelset.roll  = start.roll;
+      if (start.angular_velocity)
+        {
+          require(!motion.angular_velocity,
+                  "'Motion/Angular velocity (rad per s)' and the angular velocity in "
+                  "'Guidance/File' exclude each other");
+          motion.angular_velocity = start.angular_velocity;
+        }
+    }
+  } // namespace
+
+
   void Scene::take(const std::string &file, const std::vector<std::string> &settings)
   {
     input.read(file, settings);
@@ -39,41 +91,24 @@ namespace tread
     constexpr double largest_with_levels = 0.9;
     if (time_stepping.levels > 1 && solid.mass_damping == 0.)
       time_stepping.courant_number = std::min(time_stepping.courant_number, largest_with_levels);
-    note_files();
+    note_files(input, *this);
     guidance.check(wheelset.both_wheels);
     if (guidance.kind == Guidance::file)
-      take_wheelset_motion();
+      {
+        read_tables.wheelset_motion = std::make_shared<const WheelsetMotion>(input.located(guidance.file));
+        stand_at_start_of(*read_tables.wheelset_motion, wheelset, motion);
+      }
     wheelset.check();
     if (!track.support_file.empty())
-      take_support_springs();
+      read_tables.support_springs = read_support_springs(track, input.located(track.support_file));
     if (!track.beam_file.empty() && track.is_beam())
-      take_beam_rows();
-  }
-
-
-  void Scene::take_wheelset_motion()
-  {
-    wheelset_motion = std::make_shared<const WheelsetMotion>(input.located(guidance.file));
-    const Across start =
-      wheelset_motion->at(0., {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
-    require(!(wheelset.both_wheels && wheelset_motion->has_roll()),
-            "'Guidance/File' has roll_mrad, which is found where 'Wheelset/Both wheels' is true");
-    wheelset.shift = start.y;
-    wheelset.yaw   = start.yaw;
-    wheelset.roll  = start.roll;
-    if (start.angular_velocity)
-      {
-        require(!motion.angular_velocity, "'Motion/Angular velocity (rad per s)' and the angular velocity in "
-                                          "'Guidance/File' exclude each other");
-        motion.angular_velocity = start.angular_velocity;
-      }
+      read_tables.beam_rows = read_beam_rows(input.located(track.beam_file));
   }
 
 
   void Scene::read_surfaces(const std::string &file, const std::vector<std::string> &settings)
   {
     take(file, settings);
-    shapes = make_path();
     rail.check();
     require(!rail.is_meshed(),
             "'Rail/Shape' mesh has no section for a wheelset in its track: give a profile or slices");
@@ -89,11 +124,12 @@ namespace tread
       "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and 'Motion/Angular velocity "
       "(rad per s)' must be left out");
     // A wheelset in a given position has no point of first contact by an upright wheel.
-    if (is_positioned())
-      shapes = make_path();
-    else
-      make_shapes();
-    check(use);
+    if (!is_positioned())
+      {
+        made_shapes = make_shapes(*this);
+        add_patch(made_shapes, *this);
+      }
+    check_sections(*this, use);
   }
 
 

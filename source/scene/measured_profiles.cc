@@ -69,7 +69,7 @@ namespace tread
     constexpr double usual_pressure = 1e9; // Pa, of a wheel whose patches are not known yet
     pressure                        = scene.is_positioned() || scene.static_load() <= 0.
                                         ? usual_pressure
-                                        : hertz(scene, scene.static_load()).max_pressure;
+                                        : scene.stance().ellipse(scene.static_load()).max_pressure;
   }
 
 

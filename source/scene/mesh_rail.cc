@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A rail from the user's own mesh: its surface as the scene asks for it, and what it must have.
 #include <tread/scene/checks.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 
 #include <algorithm>
@@ -72,10 +71,35 @@ namespace tread
         doubt = "'Rail/Mesh file': " + doubt;
     }
 
+    /// By how much the smooth surface differs from its section at the start, along the path and over the
+    /// patch's width: 0 where it is the same within the error of the fit.
+    double unevenness(const SceneShapes &made, const Scene &scene)
+    {
+      const double y       = tread::first_contact(made.surfaces, scene.path_begin()).y,
+                   y_begin = std::max(-made.surfaces.half_width, y - half_patch),
+                   y_end   = std::min(made.surfaces.half_width, y + half_patch);
+      const auto   known   = made.rail_mesh->surface.along();
+      const double from    = std::max(known.begin, scene.path_begin(scene.last_wheel()) - half_patch),
+                   to      = std::min(known.end, scene.meshed_end() + half_patch);
+      const int n_along    = std::ceil(std::max(0., to - from) / step_along),
+                n_across   = std::ceil((y_end - y_begin) / step_across);
+      double largest       = 0.;
+      for (int i = 0; i <= n_along; ++i)
+        for (int j = 0; j <= n_across; ++j)
+          {
+            const double x      = from + i * (to - from) / std::max(n_along, 1),
+                         across = y_begin + (y_end - y_begin) * j / n_across;
+            const auto height   = made.rail_mesh->surface.height(x, across);
+            largest =
+              std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(across)) : no_rail);
+          }
+      return largest > round_off_of_fit ? largest : 0.;
+    }
+
     /// @param file names the mesh
     void check_slice(const Scene &scene, const std::string &file)
     {
-      const FacetSurface::Range across = scene.rail_mesh()->surface.across(scene.path_begin(), 0.);
+      const FacetSurface::Range across = scene.shapes().rail_mesh->surface.across(scene.path_begin(), 0.);
       constexpr double          alike = 1e-6, level = 1e-7; // m
       require(!scene.wheel.is_full() && std::abs(across.end - 0.5 * scene.wheel.sector_width) < alike &&
                 std::abs(across.begin + 0.5 * scene.wheel.sector_width) < alike,
@@ -86,7 +110,7 @@ namespace tread
         scene.wheel.lateral_position == 0.,
         "'Wheel/Lateral position (mm)' must be 0 on a rail between planes of symmetry, which hold the wheel");
       const auto gap = [&](const double share) {
-        return scene.surfaces().gap(share * scene.surfaces().half_width);
+        return scene.shapes().surfaces.gap(share * scene.shapes().surfaces.half_width);
       };
       for (const double share : {-1., -0.5, 0.5, 1.})
         require(std::abs(gap(share) - gap(0.)) < level,
@@ -98,42 +122,43 @@ namespace tread
   } // namespace
 
 
-  void Scene::shape_mesh_rail(Shapes &made) const
+  void shape_mesh_rail(SceneShapes &made, const Scene &scene)
   {
-    rail.check();
-    const double              unit = rail.mesh_unit == LengthUnit::millimetre ? 1e-3 : 1.;
+    scene.rail.check();
+    const double              unit = scene.rail.mesh_unit == LengthUnit::millimetre ? 1e-3 : 1.;
     std::shared_ptr<MeshRail> own;
     std::vector<std::string>  volumes;
-    for (const auto &other : rail.volume_materials())
+    for (const auto &other : scene.rail.volume_materials())
       volumes.push_back(other.volume);
     try
       {
-        own = std::make_shared<MeshRail>(read_mesh_file(input.located(rail.mesh_file), unit, volumes));
+        own = std::make_shared<MeshRail>(
+          read_mesh_file(scene.parameters().located(scene.rail.mesh_file), unit, volumes));
         made.rail_mesh = own;
-        require_size_of_rail(*made.rail_mesh, rail.mesh_unit);
+        require_size_of_rail(*made.rail_mesh, scene.rail.mesh_unit);
       }
     catch (const InputError &error)
       {
         throw InputError(std::string("'Rail/Mesh file': ") + error.what());
       }
     require(!made.defect,
-            "'Defect/Shape' " + defect.shape +
+            "'Defect/Shape' " + scene.defect.shape +
               " is laid on a rail of the program's own: with 'Rail/Shape' mesh it must be none, and the "
               "mesh has its own shape");
     const FacetSurface       &surface = made.rail_mesh->surface;
-    const double              start   = made.path_begin;
+    const double              start   = scene.path_begin();
     const FacetSurface::Range across  = surface.across(start, 0.);
     constexpr double          inside  = 1e-6; // m
-    made.rail_begin                   = surface.along().begin;
     require(std::min(-across.begin, across.end) >= 0.5 * narrowest_rail,
-            "'Rail/Mesh file': '" + input.located(rail.mesh_file) +
+            "'Rail/Mesh file': '" + scene.parameters().located(scene.rail.mesh_file) +
               "' has no contact surface about y = 0 at x = " + text_in_mm(start) +
               " mm, where the wheel begins" +
               (across.begin < across.end ? ", but from y = " + from_to_in_mm(across.begin, across.end) : "") +
               "; it is there for x from " + from_to_in_mm(surface.along().begin, surface.along().end) +
               ": move the mesh, or 'Motion/Start (mm)'");
     const double z = *surface.height(start, 0.);
-    require(std::abs(z) <= highest_top, "'Rail/Mesh file': '" + input.located(rail.mesh_file) +
+    require(std::abs(z) <= highest_top, "'Rail/Mesh file': '" +
+                                          scene.parameters().located(scene.rail.mesh_file) +
                                           "' has its top at z = " + text_in_mm(z) +
                                           " mm at y = 0 where the wheel "
                                           "begins, x = " +
@@ -147,9 +172,9 @@ namespace tread
       const FacetSurface::Facet facet   = mesh->surface.facet(start, on_rail);
       return facet.z + facet.smooth_above - fall * std::abs(y - on_rail);
     };
-    note_doubts_about_cells(*own, made.surfaces, made.path_begin - distance_behind(last_wheel()),
-                            made.path_begin + motion.meshed_distance(), made.path_begin, mesh.finest_cell);
-    made.unevenness = unevenness(made);
+    note_doubts_about_cells(*own, made.surfaces, scene.path_begin(scene.last_wheel()), scene.meshed_end(),
+                            scene.path_begin(), scene.mesh.finest_cell);
+    made.unevenness = unevenness(made, scene);
     if (made.unevenness > 0.)
       made.surfaces.defect = [mesh = made.rail_mesh, top = made.surfaces.rail_top](const double x,
                                                                                    const double y) {
@@ -159,65 +184,42 @@ namespace tread
   }
 
 
-  double Scene::unevenness(const Shapes &made) const
-  {
-    const double y       = tread::first_contact(made.surfaces, made.path_begin).y,
-                 y_begin = std::max(-made.surfaces.half_width, y - half_patch),
-                 y_end   = std::min(made.surfaces.half_width, y + half_patch);
-    const auto   known   = made.rail_mesh->surface.along();
-    const double from  = std::max(known.begin, made.path_begin - distance_behind(last_wheel()) - half_patch),
-                 to    = std::min(known.end, made.path_begin + motion.meshed_distance() + half_patch);
-    const int n_along  = std::ceil(std::max(0., to - from) / step_along),
-              n_across = std::ceil((y_end - y_begin) / step_across);
-    double largest     = 0.;
-    for (int i = 0; i <= n_along; ++i)
-      for (int j = 0; j <= n_across; ++j)
-        {
-          const double x      = from + i * (to - from) / std::max(n_along, 1),
-                       across = y_begin + (y_end - y_begin) * j / n_across;
-          const auto height   = made.rail_mesh->surface.height(x, across);
-          largest = std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(across)) : no_rail);
-        }
-    return largest > round_off_of_fit ? largest : 0.;
-  }
-
-
   std::string uneven_in_words(const Scene &scene)
   {
-    return scene.unevenness() < no_rail ? text_in_mm(scene.unevenness()) + " mm" : "a gap";
+    return scene.shapes().unevenness < no_rail ? text_in_mm(scene.shapes().unevenness) + " mm" : "a gap";
   }
 
 
   void check_mesh_rail(const Scene &scene)
   {
-    const FacetSurface &surface = scene.rail_mesh()->surface;
+    const FacetSurface &surface = scene.shapes().rail_mesh->surface;
     const std::string file = "'Rail/Mesh file': '" + scene.parameters().located(scene.rail.mesh_file) + "' ";
-    const double      a    = hertz(scene, scene.static_load()).semi_axis_x,
+    const double      a    = scene.stance().ellipse(scene.static_load()).semi_axis_x,
                  from = scene.path_begin(scene.last_wheel()) - 3. * a, to = scene.meshed_end() + 3. * a;
     require(surface.along().begin <= from && surface.along().end >= to,
             file + "has a contact surface for x from " +
               from_to_in_mm(surface.along().begin, surface.along().end) +
               "; the path and three semi-axes of the patch at both ends are from " + from_to_in_mm(from, to) +
               ": mesh a longer rail, or change 'Motion/Start (mm)' and 'Rolled distance (mm)'");
-    if (scene.is_between_planes())
+    if (scene.shapes().is_between_planes())
       check_slice(scene, file);
-    require(std::abs(scene.first_contact().y) < 0.99 * scene.surfaces().half_width,
-            file + "and the wheel touch at y = " + text_in_mm(scene.first_contact().y) +
+    require(std::abs(scene.shapes().first_contact.y) < 0.99 * scene.shapes().surfaces.half_width,
+            file + "and the wheel touch at y = " + text_in_mm(scene.shapes().first_contact.y) +
               " mm, at the edge of the contact surface, which is known up to " +
-              text_in_mm(scene.surfaces().half_width) + " mm at both sides where the wheel begins");
-    require(scene.is_between_planes() ||
-              std::max(-scene.patch_extent().begin, scene.patch_extent().end) + scene.mesh.finest_cell <=
-                scene.surfaces().half_width,
-            file + "has a contact surface up to " + text_in_mm(scene.surfaces().half_width) +
+              text_in_mm(scene.shapes().surfaces.half_width) + " mm at both sides where the wheel begins");
+    require(scene.shapes().is_between_planes() ||
+              std::max(-scene.shapes().patch.begin, scene.shapes().patch.end) + scene.mesh.finest_cell <=
+                scene.shapes().surfaces.half_width,
+            file + "has a contact surface up to " + text_in_mm(scene.shapes().surfaces.half_width) +
               " mm at both sides where the wheel begins, and the patch under the static load is from y = " +
-              from_to_in_mm(scene.patch_extent().begin, scene.patch_extent().end) +
+              from_to_in_mm(scene.shapes().patch.begin, scene.shapes().patch.end) +
               ": name more of it 'contact'");
     // At every wheel's start there is a rail under it: not a gap.
     for (unsigned int wheel = 0; wheel < scene.n_wheels(); ++wheel)
       for (double x = scene.path_begin(wheel) - a; x <= scene.path_begin(wheel) + a; x += step_along)
-        require(surface.height(x, scene.first_contact().y).has_value(),
+        require(surface.height(x, scene.shapes().first_contact.y).has_value(),
                 file + "has no contact surface at x = " + text_in_mm(x) +
-                  " mm, y = " + text_in_mm(scene.first_contact().y) +
+                  " mm, y = " + text_in_mm(scene.shapes().first_contact.y) +
                   " mm, where a wheel begins: move 'Motion/Start (mm)' away from the gap");
   }
 } // namespace tread

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/scene/assumptions.h>
 #include <tread/scene/fine_cells.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/recorded.h>
 #include <tread/scene/surface_laws.h>
@@ -71,7 +70,7 @@ namespace tread
     const double             rolled = scene.motion.meshed_distance();
     // Cells yield this far, in semi-axes, ahead of and behind the path, and as far again as they do below it.
     constexpr double beyond_path = 1.4;
-    const double     patch       = beyond_path * hertz(scene, scene.static_load()).semi_axis_x;
+    const double     patch       = beyond_path * scene.stance().ellipse(scene.static_load()).semi_axis_x;
     for (unsigned int body = rail_body; body <= wheel_body(scene.n_wheels() - 1); ++body)
       {
         const bool             wheel      = body != rail_body;
@@ -138,7 +137,7 @@ namespace tread
 
   StripExtent strip_extent(const Scene &scene, const unsigned int window)
   {
-    const double patch = hertz(scene, scene.static_load()).semi_axis_x;
+    const double patch = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     // Of a window what its finest cells feel of the wheel, which its neighbours feel too at the borders.
     const Scene::Range stretch = windows(scene).at(window);
     return {stretch.begin - patch,
@@ -147,7 +146,7 @@ namespace tread
             scene.output.strip_half_width,
             patch,
             [&scene](const dealii::Point<3> &p) {
-              return depth_in_rail(scene, p);
+              return scene.stance().depth_in_rail(p);
             }};
   }
 
@@ -190,7 +189,7 @@ namespace tread
   {
     // This far from the middle of a patch, half a semi-axis from its edge, no stress is as large as under it.
     constexpr double              semi_axes = 1.5;
-    const reference::HertzEllipse ellipse   = hertz(scene, scene.static_load());
+    const reference::HertzEllipse ellipse   = scene.stance().ellipse(scene.static_load());
     const Scene::Range            range     = peak_range(scene);
     const PeakStressSection      &section   = scene.peak_stress;
     PeakRegion                    region;
@@ -225,7 +224,7 @@ namespace tread
     p.roll_inertia              = scene.wheelset.both_wheels ? p.yaw_inertia : 0.;
     if (settles(scene))
       {
-        const reference::HertzEllipse ellipse = hertz(scene, scene.static_load());
+        const reference::HertzEllipse ellipse = scene.stance().ellipse(scene.static_load());
         p.settling = {n_wheels * ellipse.stiffness, ellipse.semi_axis_x / scene.motion.speed,
                       scene.wheelset.both_wheels ? scene.wheelset.track.wheel_origin() : 0.};
       }

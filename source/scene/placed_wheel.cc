@@ -23,56 +23,56 @@ namespace tread
         return a.solution.normal_force < b.solution.normal_force;
       });
     }
-  } // namespace
 
-
-  std::vector<PlacedWheel::Side> PlacedWheel::solve(const Scene            &scene,
-                                                    const WheelOnRail      &surfaces,
-                                                    const WheelsetPosition &position,
-                                                    const WheelRolling     &rolling)
-  {
-    const double load = scene.static_load();
-    try
-      {
-        if (!scene.wheelset.both_wheels)
-          {
-            const WheelContact own = contact_under_load(surfaces, rolling, position, load);
-            if (!scene.rail.is_sliced()) // whose other side is not known
-              require_other_wheel_clear(surfaces, own.position);
-            return {{own, false}};
-          }
-        const BothWheels both = contact_of_both_wheels(surfaces, rolling, position, 2. * load);
-        return {{both.own, false}, {both.other, true}};
-      }
-    catch (const std::bad_alloc &)
-      {
-        throw; // no fault of the input
-      }
-    catch (const std::exception &error)
-      {
-        throw InputError(
-          format("no half-space answer at 'Wheelset/Lateral shift (mm)' %g, 'Yaw (mrad)' %g and ",
-                 1e3 * position.shift, 1e3 * position.yaw) +
-          (scene.wheelset.both_wheels ? "a roll that is found: "
-                                      : format("'Roll (mrad)' %g: ", 1e3 * position.roll)) +
-          error.what());
-      }
-  }
-
-
-  WheelContact PlacedWheel::together(const std::vector<Side> &sides)
-  {
-    WheelContact all = sides.front().contact;
-    for (const Side &side : sides)
-      if (side.is_mirrored)
+    /// @throws InputError where wheel and rail do not meet, or no height carries the load.
+    std::vector<PlacedWheel::Side> solve_sides(const Scene            &scene,
+                                               const WheelOnRail      &surfaces,
+                                               const WheelsetPosition &position,
+                                               const WheelRolling     &rolling)
+    {
+      const double load = scene.static_load();
+      try
         {
-          const WheelContact other = of_other_wheel(side.contact);
-          all.patches.insert(all.patches.end(), other.patches.begin(), other.patches.end());
-          for (unsigned int d = 0; d < 3; ++d)
-            all.force[d] += other.force[d];
+          if (!scene.wheelset.both_wheels)
+            {
+              const WheelContact own = contact_under_load(surfaces, rolling, position, load);
+              if (!scene.rail.is_sliced()) // whose other side is not known
+                require_other_wheel_clear(surfaces, own.position);
+              return {{own, false}};
+            }
+          const BothWheels both = contact_of_both_wheels(surfaces, rolling, position, 2. * load);
+          return {{both.own, false}, {both.other, true}};
         }
-    return all;
-  }
+      catch (const std::bad_alloc &)
+        {
+          throw; // no fault of the input
+        }
+      catch (const std::exception &error)
+        {
+          throw InputError(
+            format("no half-space answer at 'Wheelset/Lateral shift (mm)' %g, 'Yaw (mrad)' %g and ",
+                   1e3 * position.shift, 1e3 * position.yaw) +
+            (scene.wheelset.both_wheels ? "a roll that is found: "
+                                        : format("'Roll (mrad)' %g: ", 1e3 * position.roll)) +
+            error.what());
+        }
+    }
+
+    /// Of all wheels, in the track axes of the own one.
+    WheelContact together(const std::vector<PlacedWheel::Side> &sides)
+    {
+      WheelContact all = sides.front().contact;
+      for (const PlacedWheel::Side &side : sides)
+        if (side.is_mirrored)
+          {
+            const WheelContact other = of_other_wheel(side.contact);
+            all.patches.insert(all.patches.end(), other.patches.begin(), other.patches.end());
+            for (unsigned int d = 0; d < 3; ++d)
+              all.force[d] += other.force[d];
+          }
+      return all;
+    }
+  } // namespace
 
 
   PlacedWheel::PlacedWheel(const Scene &scene)
@@ -86,8 +86,8 @@ namespace tread
   PlacedWheel::PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling)
     : surfaces(scene.wheel_on_rail())
     , scene(scene)
-    , sides(solve(scene, surfaces, position, rolling))
-    , contact(together(sides))
+    , solved_sides(solve_sides(scene, surfaces, position, rolling))
+    , contact(together(solved_sides))
   {
   }
 
@@ -157,7 +157,7 @@ namespace tread
 
   const WheelPatch &PlacedWheel::main_patch() const
   {
-    return most_loaded(sides.front().contact.patches);
+    return most_loaded(solved_sides.front().contact.patches);
   }
 
 
@@ -166,9 +166,9 @@ namespace tread
     // On slices the way holds what guidance by a file does, too.
     const double own =
       slices.pieces.empty() ? main_patch().rise : scene.motion.speed * slices.slope(scene.path_begin());
-    if (sides.size() == 1)
+    if (solved_sides.size() == 1)
       return {own, 0.};
-    const double other = most_loaded(sides.back().contact.patches).rise;
+    const double other = most_loaded(solved_sides.back().contact.patches).rise;
     // A positive roll rate takes the own side down.
     return {0.5 * (own + other), 0.5 * (other - own) / surfaces.wheel_origin_y()};
   }
@@ -185,9 +185,10 @@ namespace tread
   unsigned int PlacedWheel::nearest_patch(const Vector3 place) const
   {
     const auto distance = [&](const WheelPatch &patch) {
-      const Vector3 arm = place - origin(patch), across = along(patch);
-      const double  y    = std::clamp(dot(arm, across), patch.solution.y_begin, patch.solution.y_end);
-      const Vector3 away = arm - y * across;
+      const ContactAxes contact_axes = axes(patch);
+      const Vector3     arm          = place - contact_axes.origin;
+      const double y = std::clamp(dot(arm, contact_axes.along), patch.solution.y_begin, patch.solution.y_end);
+      const Vector3 away = arm - y * contact_axes.along;
       return std::hypot(away[1], away[2]);
     };
     return std::min_element(
@@ -204,37 +205,20 @@ namespace tread
   }
 
 
-  Vector3 PlacedWheel::axle() const
+  ContactAxes PlacedWheel::axes(const WheelPatch &patch) const
   {
-    return vector(WheelOnRail::axle(contact.position));
-  }
-
-
-  Vector3 PlacedWheel::origin(const WheelPatch &patch) const
-  {
-    return vector(patch.region.reference) - Vector3{0., surfaces.rail_origin_y(), 0., 0.};
-  }
-
-
-  Vector3 PlacedWheel::along(const WheelPatch &patch)
-  {
-    return vector(patch.along());
-  }
-
-
-  Vector3 PlacedWheel::normal(const WheelPatch &patch)
-  {
-    return vector(patch.normal());
+    return {vector(patch.region.reference) - Vector3{0., surfaces.rail_origin_y(), 0., 0.},
+            vector(patch.along()), vector(patch.normal())};
   }
 
 
   ContactNodeState PlacedWheel::in_contact_axes(const ContactNodeState &given, const double wheel_x) const
   {
     ContactNodeState  state = given;
-    const WheelPatch &patch = patches()[nearest_patch(state.position - Vector3{wheel_x, 0., 0., 0.})];
-    const Vector3     s = along(patch), n = normal(patch);
+    const ContactAxes contact_axes =
+      axes(patches()[nearest_patch(state.position - Vector3{wheel_x, 0., 0., 0.})]);
     for (Vector3 *v : {&state.normal, &state.impulse, &state.slip})
-      *v = Vector3{(*v)[0], dot(*v, s), dot(*v, n), 0.};
+      *v = contact_axes.turned(*v);
     return state;
   }
 
@@ -243,63 +227,16 @@ namespace tread
                                                       const std::vector<ContactNodeState> &states,
                                                       const double                         wheel_x) const
   {
-    const WheelPatch             &patch = patches()[number];
+    const ContactAxes             at = axes(patches()[number]);
     const Vector3                 x{wheel_x, 0., 0., 0.};
     std::vector<ContactNodeState> own;
     for (const ContactNodeState &state : states)
       if (nearest_patch(state.position - x) == number)
         {
           own.push_back(state);
-          const Vector3 arm   = state.position - x - origin(patch);
-          own.back().position = Vector3{arm[0], dot(arm, along(patch)), dot(arm, normal(patch)), 0.} + x;
+          own.back().position = at.turned(state.position - x - at.origin) + x;
         }
     return own;
-  }
-
-
-  Vector3 PlacedWheel::traction_over_pressure(const Vector3 place) const
-  {
-    const WheelPatch              &patch = patches()[nearest_patch(place)];
-    const reference::PlanarResult &s     = patch.solution;
-    const Vector3                  arm = place - origin(patch), across = along(patch);
-    const double                   x = arm[0], y = dot(arm, across);
-    // Outside the patch that of the nearest element on the way to its middle.
-    const double       x_middle = 0.5 * (s.x_begin + s.x_end), y_middle = 0.5 * (s.y_begin + s.y_end);
-    const unsigned int n_steps =
-      std::ceil(std::max(std::abs(x - x_middle) / s.grid.dx, std::abs(y - y_middle) / s.grid.dy));
-    for (unsigned int step = n_steps + 1; step-- > 0;)
-      {
-        const double share  = n_steps > 0 ? double(step) / n_steps : 0.;
-        const double column = std::round((x_middle + share * (x - x_middle) - s.grid.x_first) / s.grid.dx),
-                     row    = std::round((y_middle + share * (y - y_middle) - s.grid.y_first) / s.grid.dy);
-        if (column < 0. || column >= s.grid.n_x || row < 0. || row >= s.grid.n_y)
-          continue;
-        const std::size_t e = s.grid.n_x * std::size_t(row) + std::size_t(column);
-        if (s.pressure[e] > 0.)
-          return (1. / s.pressure[e]) * (Vector3{s.shear_x[e], 0., 0., 0.} + s.shear_y[e] * across);
-      }
-    return Vector3{};
-  }
-
-
-  std::vector<PatchNode> PlacedWheel::table_nodes(const WheelPatch &patch) const
-  {
-    std::vector<PatchNode> nodes = elements_in_contact(patch);
-    for (PatchNode &node : nodes)
-      node.position = origin(patch) + Vector3{node.position[0], 0., 0., 0.} + node.position[1] * along(patch);
-    return nodes;
-  }
-
-
-  std::vector<PatchNode> PlacedWheel::table_nodes() const
-  {
-    std::vector<PatchNode> nodes;
-    for (const WheelPatch &patch : patches())
-      {
-        const std::vector<PatchNode> own = table_nodes(patch);
-        nodes.insert(nodes.end(), own.begin(), own.end());
-      }
-    return nodes;
   }
 
 
@@ -346,6 +283,12 @@ namespace tread
         }
       return (p.z - from[1]) * across[0] - (p.y - from[0]) * across[1];
     }
+
+    /// How far a place is beside the path of a piece of slices (m).
+    double beside_piece(const TouchedPiece &piece, const WheelOnRail &surfaces, const dealii::Point<3> &p)
+    {
+      return (p[1] + surfaces.rail_origin_y() - piece.y(p[0])) / std::cos(piece.inclination());
+    }
   } // namespace
 
 
@@ -353,19 +296,21 @@ namespace tread
   {
     if (!surfaces.rail_surface().is_constant())
       return place_in_slices(p);
-    const Vector3              arm = Vector3{p[0], p[1], p[2], 0.} - origin(patch), across = along(patch);
-    const double               beside = dot(arm, across), side = patch.is_of_other_wheel ? -1. : 1.;
-    const dealii::Point<2>     from(side * patch.region.reference[1], patch.region.reference[2]);
-    const dealii::Tensor<1, 2> in_section({side * across[1], across[2]});
+    const ContactAxes      contact_axes = axes(patch);
+    const Vector3          arm          = Vector3{p[0], p[1], p[2], 0.} - contact_axes.origin;
+    const double           beside = dot(arm, contact_axes.along), side = patch.is_of_other_wheel ? -1. : 1.;
+    const dealii::Point<2> from(side * patch.region.reference[1], patch.region.reference[2]);
+    const dealii::Tensor<1, 2> in_section({side * contact_axes.along[1], contact_axes.along[2]});
     const CurveFromAbove      &rail = surfaces.rail();
     const double               s    = rail.parameter(std::clamp(from[0], rail.begin(), rail.end()));
-    return {arm[0], beside, over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, normal(patch))};
+    return {arm[0], beside,
+            over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, contact_axes.normal)};
   }
 
 
-  PlacedWheel::Place PlacedWheel::place_in_rail(const dealii::Point<3> &p) const
+  double PlacedWheel::depth_in_rail(const dealii::Point<3> &p) const
   {
-    return place_in_rail(p, patches()[nearest_patch(Vector3{p[0], p[1], p[2], 0.})]);
+    return place_in_rail(p, patches()[nearest_patch(Vector3{p[0], p[1], p[2], 0.})]).below;
   }
 
 
@@ -393,8 +338,7 @@ namespace tread
               touch = &other;
             }
         }
-    const double beside = (p[1] + surfaces.rail_origin_y() - on->y(p[0])) / std::cos(on->inclination());
-    return is_on(beside, place_in_slices(p).below);
+    return is_on(beside_piece(*on, surfaces, p), place_in_slices(p).below);
   }
 
 
@@ -416,16 +360,16 @@ namespace tread
   PlacedWheel::Place PlacedWheel::place_in_slices(const dealii::Point<3> &p) const
   {
     const double        y     = p[1] + surfaces.rail_origin_y();
-    const TouchedPiece &piece = *std::min_element(slices.pieces.begin(), slices.pieces.end(),
-                                                  [&](const TouchedPiece &a, const TouchedPiece &b) {
-                                                    return std::abs(beside(a, p)) < std::abs(beside(b, p));
-                                                  });
+    const TouchedPiece &piece = *std::min_element(
+      slices.pieces.begin(), slices.pieces.end(), [&](const TouchedPiece &a, const TouchedPiece &b) {
+        return std::abs(beside_piece(a, surfaces, p)) < std::abs(beside_piece(b, surfaces, p));
+      });
     std::shared_ptr<const std::vector<ProfileCurve>> &sections = sections_at[p[0]];
     if (!sections)
       sections = surfaces.rail_sections(scene.rail.slices_place + p[0]);
     const auto   top   = highest_over(*sections, y);
     const double below = (top ? top->z : nearest_end(*sections, y)) - p[2];
-    return {p[0], beside(piece, p), std::cos(piece.inclination()) * below};
+    return {p[0], beside_piece(piece, surfaces, p), std::cos(piece.inclination()) * below};
   }
 
 
@@ -434,20 +378,23 @@ namespace tread
                                                  const double            start_x) const
   {
     // The meridian through the point, turned about the axle to that of the patch.
-    const Vector3 a = axle(), arm = Vector3{p[0] - start_x, p[1], p[2], 0.} - middle(),
-                  of_patch = origin(patch) - middle();
+    const ContactAxes contact_axes = axes(patch);
+    const Vector3     a            = vector(WheelOnRail::axle(contact.position)),
+                  arm              = Vector3{p[0] - start_x, p[1], p[2], 0.} - middle(),
+                  of_patch         = contact_axes.origin - middle();
     const Vector3 off = arm - dot(a, arm) * a, patch_off = of_patch - dot(a, of_patch) * a;
     const double  angle  = std::atan2(-dot(a, cross(patch_off, off)), dot(patch_off, off));
     const Vector3 turned = dot(a, arm) * a + (norm(off) / norm(patch_off)) * patch_off;
     const Vector3 from   = turned - of_patch;
     // In the axes of the wheel's profile, in which z grows towards the axle.
-    const Vector3              outwards = (1. / norm(patch_off)) * patch_off, across = along(patch);
-    const double               side = patch.is_of_other_wheel ? -1. : 1., beside = dot(from, across);
-    const dealii::Point<2>     origin(side * dot(a, of_patch) - surfaces.wheel_origin_y(),
-                                      surfaces.radius() - norm(patch_off));
-    const dealii::Tensor<1, 2> in_section({side * dot(a, across), -dot(outwards, across)});
+    const Vector3          outwards = (1. / norm(patch_off)) * patch_off;
+    const double           side = patch.is_of_other_wheel ? -1. : 1., beside = dot(from, contact_axes.along);
+    const dealii::Point<2> origin(side * dot(a, of_patch) - surfaces.wheel_origin_y(),
+                                  surfaces.radius() - norm(patch_off));
+    const dealii::Tensor<1, 2> in_section(
+      {side * dot(a, contact_axes.along), -dot(outwards, contact_axes.along)});
     return {angle * patch.rolling_radius, beside,
-            dot(from, normal(patch)) -
+            dot(from, contact_axes.normal) -
               over_plane(surfaces.wheel(), patch.wheel_s, origin, in_section / in_section.norm(), beside)};
   }
 
@@ -533,16 +480,12 @@ namespace tread
   }
 
 
-  double PlacedWheel::beside(const TouchedPiece &piece, const dealii::Point<3> &p) const
-  {
-    return (p[1] + surfaces.rail_origin_y() - piece.y(p[0])) / std::cos(piece.inclination());
-  }
-
-
   double PlacedWheel::beside(const Path &path, const dealii::Point<3> &p) const
   {
-    return path.piece ? beside(*path.piece, p)
-                      : dot(Vector3{p[0], p[1], p[2], 0.} - origin(main_patch()), along(main_patch()));
+    if (path.piece)
+      return beside_piece(*path.piece, surfaces, p);
+    const ContactAxes contact_axes = axes(main_patch());
+    return dot(Vector3{p[0], p[1], p[2], 0.} - contact_axes.origin, contact_axes.along);
   }
 
 
@@ -563,5 +506,53 @@ namespace tread
     Place place = place_in_wheel(p, *patch, start_x);
     place.along += start_x + patch->region.reference[0];
     return place;
+  }
+
+
+  Vector3 traction_over_pressure(const PlacedWheel &wheel, const Vector3 place)
+  {
+    const WheelPatch              &patch = wheel.patches()[wheel.nearest_patch(place)];
+    const ContactAxes              axes  = wheel.axes(patch);
+    const reference::PlanarResult &s     = patch.solution;
+    const Vector3                  arm   = place - axes.origin;
+    const double                   x = arm[0], y = dot(arm, axes.along);
+    // Outside the patch that of the nearest element on the way to its middle.
+    const double       x_middle = 0.5 * (s.x_begin + s.x_end), y_middle = 0.5 * (s.y_begin + s.y_end);
+    const unsigned int n_steps =
+      std::ceil(std::max(std::abs(x - x_middle) / s.grid.dx, std::abs(y - y_middle) / s.grid.dy));
+    for (unsigned int step = n_steps + 1; step-- > 0;)
+      {
+        const double share  = n_steps > 0 ? double(step) / n_steps : 0.;
+        const double column = std::round((x_middle + share * (x - x_middle) - s.grid.x_first) / s.grid.dx),
+                     row    = std::round((y_middle + share * (y - y_middle) - s.grid.y_first) / s.grid.dy);
+        if (column < 0. || column >= s.grid.n_x || row < 0. || row >= s.grid.n_y)
+          continue;
+        const std::size_t e = s.grid.n_x * std::size_t(row) + std::size_t(column);
+        if (s.pressure[e] > 0.)
+          return (1. / s.pressure[e]) * (Vector3{s.shear_x[e], 0., 0., 0.} + s.shear_y[e] * axes.along);
+      }
+    return Vector3{};
+  }
+
+
+  std::vector<PatchNode> table_nodes(const PlacedWheel &wheel, const WheelPatch &patch)
+  {
+    const ContactAxes      axes  = wheel.axes(patch);
+    std::vector<PatchNode> nodes = elements_in_contact(patch);
+    for (PatchNode &node : nodes)
+      node.position = axes.origin + Vector3{node.position[0], 0., 0., 0.} + node.position[1] * axes.along;
+    return nodes;
+  }
+
+
+  std::vector<PatchNode> table_nodes(const PlacedWheel &wheel)
+  {
+    std::vector<PatchNode> nodes;
+    for (const WheelPatch &patch : wheel.patches())
+      {
+        const std::vector<PatchNode> own = table_nodes(wheel, patch);
+        nodes.insert(nodes.end(), own.begin(), own.end());
+      }
+    return nodes;
   }
 } // namespace tread

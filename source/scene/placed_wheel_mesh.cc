@@ -179,11 +179,7 @@ namespace tread
         }
       return {0.5 * (s[0] + s[1]), 0.5 * (angle[0] + angle[1])};
     }
-  } // namespace
 
-
-  namespace
-  {
     /// @throws InputError unless a body has its profile wherever cells are finest.
     void require_on_profile(const ProfileSection        &section,
                             const std::vector<FineZone> &zones,
@@ -203,77 +199,7 @@ namespace tread
                   " mm: change 'Mesh/Fine half width (mm)', 'Wheel/Sector width (mm)' or the position" +
                   (wanders ? ", or how far 'Guidance/File' moves the contact" : ""));
     }
-  } // namespace
 
-
-  std::function<dealii::Point<3>(const Vector3d &)> PlacedWheel::from_track(const bool is_mirrored) const
-  {
-    return [origin = surfaces.rail_origin_y(), sign = is_mirrored ? -1. : 1.](const Vector3d &p) {
-      return dealii::Point<3>(p[0], sign * p[1] - origin, p[2]);
-    };
-  }
-
-
-  Body PlacedWheel::of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const
-  {
-    try
-      {
-        Body body = make(sides.front());
-        if (sides.size() > 1)
-          body = join(body, make(sides.back()));
-        body.name = name;
-        return body;
-      }
-    catch (const std::invalid_argument &error) // of the mesh
-      {
-        throw InputError(
-          name + ": " + error.what() +
-          "; change 'Mesh/Fine half width (mm)' or 'Fine layers', 'Wheel/Sector width (mm)' or "
-          "'Sector thickness (mm)', which rail and wheel share");
-      }
-  }
-
-
-  std::vector<Body> PlacedWheel::make_bodies(const FineWindow &) const
-  {
-    return {
-      of_sides("rail",
-               [&](const Side &side) { return scene.rail.is_sliced() ? rail_of_slices() : rail_of(side); }),
-      of_sides("wheel", [&](const Side &side) { return wheel_of(side); })};
-  }
-
-
-  Body PlacedWheel::rail_of(const Side &side) const
-  {
-    const std::vector<WheelPatch> &patches = side.contact.patches;
-    const ProfileCurve             profile = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
-    const auto                     parameter_of = [&](const WheelPatch &patch) {
-      return surfaces.rail().parameter(patch.region.reference[1]);
-    };
-    const Middle          middle = middle_of(patches, parameter_of);
-    const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
-                                  scene.wheel.sector_thickness, scene.wheel.half_width());
-    const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
-    std::vector<FineZone> zones;
-    for (const WheelPatch &patch : patches)
-      zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
-                              parameter_of(patch), middle.s, scene.motion.meshed_distance(), wanders.rail));
-    require_on_profile(section, zones,
-                       scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head",
-                       scene.guidance.kind == Guidance::file);
-    const auto place = [section, in_mesh = from_track(side.is_mirrored), origin = surfaces.rail_origin_y()](
-                         const double x, const double along, const double behind) {
-      const dealii::Point<2> p = section.point(along, behind);
-      return in_mesh({x, p[0] + origin, p[1]});
-    };
-    return make_profile_block(
-      {scene.rail_begin(), scene.rail_end(), section.half_width, section.depth, side.is_mirrored, place},
-      scene.mesh.coarsest_cell, zones);
-  }
-
-
-  namespace
-  {
     /// The sections of a piece along the way, each a block's about the line of its touches.
     class PieceSections
     {
@@ -355,100 +281,197 @@ namespace tread
     public:
       double half_width, begin, end; ///< m
     };
+
+    /// Blocks behind the running surfaces of a wheelset in its position, finest at the patches.
+    class BlocksOfWheelset
+    {
+    public:
+      BlocksOfWheelset(const Scene &scene, const PlacedWheel &wheel)
+        : scene(scene)
+        , surfaces(wheel.surfaces)
+        , sides(wheel.sides())
+        , slices(wheel.way())
+      {
+      }
+
+      Body rail() const
+      {
+        return of_sides("rail", [&](const PlacedWheel::Side &side) {
+          return scene.rail.is_sliced() ? rail_of_slices() : rail_of(side);
+        });
+      }
+
+      Body wheel() const
+      {
+        return of_sides("wheel", [&](const PlacedWheel::Side &side) { return wheel_of(side); });
+      }
+
+    private:
+      /// From the track axes of a side to those of the mesh.
+      std::function<dealii::Point<3>(const Vector3d &)> from_track(const bool is_mirrored) const
+      {
+        return [origin = surfaces.rail_origin_y(), sign = is_mirrored ? -1. : 1.](const Vector3d &p) {
+          return dealii::Point<3>(p[0], sign * p[1] - origin, p[2]);
+        };
+      }
+
+      /// A body from its piece at each side.
+      Body of_sides(const std::string &name, const std::function<Body(const PlacedWheel::Side &)> &make) const
+      {
+        try
+          {
+            Body body = make(sides.front());
+            if (sides.size() > 1)
+              body = join(body, make(sides.back()));
+            body.name = name;
+            return body;
+          }
+        catch (const std::invalid_argument &error) // of the mesh
+          {
+            throw InputError(
+              name + ": " + error.what() +
+              "; change 'Mesh/Fine half width (mm)' or 'Fine layers', 'Wheel/Sector width (mm)' or "
+              "'Sector thickness (mm)', which rail and wheel share");
+          }
+      }
+
+      Body rail_of(const PlacedWheel::Side &side) const
+      {
+        const std::vector<WheelPatch> &patches = side.contact.patches;
+        const ProfileCurve             profile = surfaces.rail().curve().moved(-surfaces.rail_origin_y(), 0.);
+        const auto                     parameter_of = [&](const WheelPatch &patch) {
+          return surfaces.rail().parameter(patch.region.reference[1]);
+        };
+        const Middle          middle = middle_of(patches, parameter_of);
+        const ProfileSection  section(profile, middle.s, middle.inclination, ProfileSection::Side::below,
+                                      scene.wheel.sector_thickness, scene.wheel.half_width());
+        const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
+        std::vector<FineZone> zones;
+        for (const WheelPatch &patch : patches)
+          zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
+                                  parameter_of(patch), middle.s, scene.motion.meshed_distance(),
+                                  wanders.rail));
+        require_on_profile(section, zones,
+                           scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head",
+                           scene.guidance.kind == Guidance::file);
+        const auto place = [section, in_mesh = from_track(side.is_mirrored),
+                            origin = surfaces.rail_origin_y()](const double x, const double along,
+                                                               const double behind) {
+          const dealii::Point<2> p = section.point(along, behind);
+          return in_mesh({x, p[0] + origin, p[1]});
+        };
+        return make_profile_block(
+          {scene.rail_begin(), scene.rail_end(), section.half_width, section.depth, side.is_mirrored, place},
+          scene.mesh.coarsest_cell, zones);
+      }
+
+      Body rail_of_slices() const
+      {
+        const auto          in_mesh = from_track(false);
+        std::optional<Body> rail;
+        for (const TouchedPiece &piece : slices.pieces)
+          {
+            const auto sections = std::make_shared<PieceSections>(scene, surfaces, piece);
+            FineZone   zone     = hull_of(scene, piece, [&](const TouchedPiece::Touch &touch) {
+              const auto here   = sections->curves(touch.x());
+              const auto middle = highest_over(*here, piece.y(touch.x())),
+                         at     = highest_over(*here, touch.patch.region.reference[1]);
+              if (!middle || !at)
+                throw std::invalid_argument("the slices have no surface where the wheel touches them");
+              return zone_of(scene, touch.patch, (*here)[at->curve], touch.x(), at->s, middle->s, 0.);
+            });
+            zone.x_begin        = std::max(zone.x_begin, sections->begin);
+            zone.x_end          = std::min(zone.x_end, sections->end);
+            require(
+              zone.reach() <= sections->half_width,
+              "'Rail/Slices': the finest cells of a piece" +
+                (piece.body.empty() ? "" : " (" + piece.body + ")") + " reach " + text_in_mm(zone.reach()) +
+                " mm to the side of its middle line, and the block behind "
+                "its surface, 'Wheel/Sector thickness (mm)' " +
+                text_in_mm(scene.wheel.sector_thickness) + " thick, is only " +
+                text_in_mm(sections->half_width) +
+                " mm wide to each side: a shorter way, a thicker block or lower 'Mesh/Fine half width (mm)'");
+            Body body = make_profile_block(
+              {sections->begin, sections->end, sections->half_width, scene.wheel.sector_thickness, false,
+               [sections, in_mesh](const double x, const double along, const double behind) {
+                 const dealii::Point<2> p = sections->at(x).point(along, behind);
+                 return in_mesh({x, p[0], p[1]});
+               }},
+              scene.mesh.coarsest_cell, {zone});
+            // Where a piece begins or ends within the rail, nothing is cut.
+            body.boundary_at = [at = body.boundary_at, is_whole_begin = sections->begin > scene.rail_begin(),
+                                is_whole_end = sections->end < scene.rail_end(),
+                                middle = 0.5 * (sections->begin + sections->end)](const dealii::Point<3> &p) {
+              const Boundary boundary = at(p);
+              return boundary == Boundary::end && (p[0] < middle ? is_whole_begin : is_whole_end)
+                       ? Boundary::free
+                       : boundary;
+            };
+            rail = rail ? join(body, *rail) : body;
+          }
+        return *rail;
+      }
+
+      Body wheel_of(const PlacedWheel::Side &side) const
+      {
+        const std::vector<WheelPatch> &patches = side.contact.patches;
+        const ProfileCurve            &profile = surfaces.wheel();
+        std::vector<WheelPatch>        all     = patches; // on the way too
+        for (const TouchedPiece &piece : slices.pieces)
+          for (const TouchedPiece::Touch &touch : piece.touches)
+            all.push_back(touch.patch);
+        const Middle         middle = middle_of(all, [](const WheelPatch &patch) { return patch.wheel_s; });
+        const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
+                                     scene.wheel.sector_thickness, scene.wheel.half_width());
+        // Along the tread arcs have the length that they have on the circle through the middle.
+        const double          radius  = surfaces.radius() - profile.at(middle.s).z;
+        const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
+        std::vector<FineZone> zones;
+        double                begin = 1e300, end = -1e300;
+        const double          way = scene.motion.meshed_distance();
+        for (const WheelPatch &patch : patches)
+          {
+            const double arc = radius * patch.wheel_angle;
+            if (slices.pieces.empty())
+              zones.push_back(
+                zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, way, wanders.wheel));
+            begin = std::min(begin, arc + wanders.wheel.x[0]);
+            end   = std::max(end, arc + wanders.wheel.x[1]);
+          }
+        for (const TouchedPiece &piece : slices.pieces)
+          {
+            zones.push_back(hull_of(scene, piece, [&](const TouchedPiece::Touch &touch) {
+              const double arc = radius * touch.patch.wheel_angle + touch.axle - scene.path_begin();
+              return zone_of(scene, touch.patch, profile, arc, touch.patch.wheel_s, middle.s, 0.);
+            }));
+            begin = std::min(begin, zones.back().x_begin);
+            end   = std::max(end, zones.back().x_end - way);
+          }
+        require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
+        const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
+        const auto   place = [section, in_mesh = from_track(side.is_mirrored), surfaces = surfaces,
+                            position = side.contact.position, radius,
+                            x_start](const double arc, const double along, const double behind) {
+          const dealii::Point<2> p = section.point(along, behind);
+          const Vector3d         q = surfaces.place(position, p[0], p[1], arc / radius);
+          return in_mesh({q[0] + x_start, q[1], q[2]});
+        };
+        return make_profile_block(
+          {begin - margin, end + way + margin, section.half_width, section.depth, !side.is_mirrored, place},
+          scene.mesh.coarsest_cell, zones);
+      }
+
+      const Scene                          &scene;
+      const WheelOnRail                    &surfaces;
+      const std::vector<PlacedWheel::Side> &sides;
+      const WayOverSlices                  &slices;
+    };
   } // namespace
 
 
-  Body PlacedWheel::rail_of_slices() const
+  std::vector<Body> PlacedWheel::make_bodies(const FineWindow &) const
   {
-    const auto          in_mesh = from_track(false);
-    std::optional<Body> rail;
-    for (const TouchedPiece &piece : slices.pieces)
-      {
-        const auto sections = std::make_shared<PieceSections>(scene, surfaces, piece);
-        FineZone   zone     = hull_of(scene, piece, [&](const TouchedPiece::Touch &touch) {
-          const auto here   = sections->curves(touch.x());
-          const auto middle = highest_over(*here, piece.y(touch.x())),
-                     at     = highest_over(*here, touch.patch.region.reference[1]);
-          if (!middle || !at)
-            throw std::invalid_argument("the slices have no surface where the wheel touches them");
-          return zone_of(scene, touch.patch, (*here)[at->curve], touch.x(), at->s, middle->s, 0.);
-        });
-        zone.x_begin        = std::max(zone.x_begin, sections->begin);
-        zone.x_end          = std::min(zone.x_end, sections->end);
-        require(
-          zone.reach() <= sections->half_width,
-          "'Rail/Slices': the finest cells of a piece" + (piece.body.empty() ? "" : " (" + piece.body + ")") +
-            " reach " + text_in_mm(zone.reach()) +
-            " mm to the side of its middle line, and the block behind "
-            "its surface, 'Wheel/Sector thickness (mm)' " +
-            text_in_mm(scene.wheel.sector_thickness) + " thick, is only " + text_in_mm(sections->half_width) +
-            " mm wide to each side: a shorter way, a thicker block or lower 'Mesh/Fine half width (mm)'");
-        Body body = make_profile_block(
-          {sections->begin, sections->end, sections->half_width, scene.wheel.sector_thickness, false,
-           [sections, in_mesh](const double x, const double along, const double behind) {
-             const dealii::Point<2> p = sections->at(x).point(along, behind);
-             return in_mesh({x, p[0], p[1]});
-           }},
-          scene.mesh.coarsest_cell, {zone});
-        // Where a piece begins or ends within the rail, nothing is cut.
-        body.boundary_at = [at = body.boundary_at, is_whole_begin = sections->begin > scene.rail_begin(),
-                            is_whole_end = sections->end < scene.rail_end(),
-                            middle = 0.5 * (sections->begin + sections->end)](const dealii::Point<3> &p) {
-          const Boundary boundary = at(p);
-          return boundary == Boundary::end && (p[0] < middle ? is_whole_begin : is_whole_end) ? Boundary::free
-                                                                                              : boundary;
-        };
-        rail = rail ? join(body, *rail) : body;
-      }
-    return *rail;
-  }
-
-
-  Body PlacedWheel::wheel_of(const Side &side) const
-  {
-    const std::vector<WheelPatch> &patches = side.contact.patches;
-    const ProfileCurve            &profile = surfaces.wheel();
-    std::vector<WheelPatch>        all     = patches; // on the way too
-    for (const TouchedPiece &piece : slices.pieces)
-      for (const TouchedPiece::Touch &touch : piece.touches)
-        all.push_back(touch.patch);
-    const Middle         middle = middle_of(all, [](const WheelPatch &patch) { return patch.wheel_s; });
-    const ProfileSection section(profile, middle.s, middle.inclination, ProfileSection::Side::above,
-                                 scene.wheel.sector_thickness, scene.wheel.half_width());
-    // Along the tread arcs have the length that they have on the circle through the middle.
-    const double          radius  = surfaces.radius() - profile.at(middle.s).z;
-    const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
-    std::vector<FineZone> zones;
-    double                begin = 1e300, end = -1e300;
-    const double          way = scene.motion.meshed_distance();
-    for (const WheelPatch &patch : patches)
-      {
-        const double arc = radius * patch.wheel_angle;
-        if (slices.pieces.empty())
-          zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, way, wanders.wheel));
-        begin = std::min(begin, arc + wanders.wheel.x[0]);
-        end   = std::max(end, arc + wanders.wheel.x[1]);
-      }
-    for (const TouchedPiece &piece : slices.pieces)
-      {
-        zones.push_back(hull_of(scene, piece, [&](const TouchedPiece::Touch &touch) {
-          const double arc = radius * touch.patch.wheel_angle + touch.axle - scene.path_begin();
-          return zone_of(scene, touch.patch, profile, arc, touch.patch.wheel_s, middle.s, 0.);
-        }));
-        begin = std::min(begin, zones.back().x_begin);
-        end   = std::max(end, zones.back().x_end - way);
-      }
-    require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
-    const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
-    const auto   place = [section, in_mesh = from_track(side.is_mirrored), surfaces = surfaces,
-                        position = side.contact.position, radius,
-                        x_start](const double arc, const double along, const double behind) {
-      const dealii::Point<2> p = section.point(along, behind);
-      const Vector3d         q = surfaces.place(position, p[0], p[1], arc / radius);
-      return in_mesh({q[0] + x_start, q[1], q[2]});
-    };
-    return make_profile_block(
-      {begin - margin, end + way + margin, section.half_width, section.depth, !side.is_mirrored, place},
-      scene.mesh.coarsest_cell, zones);
+    const BlocksOfWheelset blocks(scene, *this);
+    return {blocks.rail(), blocks.wheel()};
   }
 } // namespace tread

@@ -2,7 +2,6 @@
 // Where in the rail results are taken.
 #include <tread/base/input_error.h>
 #include <tread/reference/hertz.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/recorded.h>
 
 #include <deal.II/base/utilities.h>
@@ -16,12 +15,12 @@ namespace tread
   {
     if (scene.peak_stress.place == PeakPlace::range)
       return {scene.peak_stress.from, scene.peak_stress.to};
-    const double length = scene.made_defect() ? scene.made_defect()->length : scene.defect.length;
+    const double length = scene.shapes().defect ? scene.shapes().defect->length : scene.defect.length;
     require(length > 0.,
             "'Peak stress/Region' trailing edge needs a defect, or its 'Defect/Length (mm)' where "
             "'Defect/Shape' is none");
     const double edge = scene.defect.position + length;
-    return {edge - 0.5 * length, edge + hertz(scene, scene.static_load()).semi_axis_x};
+    return {edge - 0.5 * length, edge + scene.stance().ellipse(scene.static_load()).semi_axis_x};
   }
 
 
@@ -29,20 +28,14 @@ namespace tread
   {
     if (scene.peak_stress.half_width > 0.)
       return scene.peak_stress.half_width;
-    const double of_patch = hertz(scene, scene.static_load()).semi_axis_y;
+    const double of_patch = scene.stance().ellipse(scene.static_load()).semi_axis_y;
     if (scene.peak_stress.place != PeakPlace::trailing_edge ||
-        (scene.made_defect() && scene.defect.shape != "dip"))
+        (scene.shapes().defect && scene.defect.shape != "dip"))
       return of_patch;
     // To where the edge of a round defect runs along the path as much as across. Beyond, it is rounded over
     // less and less of its own direction: at the sides it is sharp, and elasticity has no limit there.
     const double width = scene.defect.width > 0. ? scene.defect.width : scene.defect.length;
     return std::min(of_patch, 0.5 * width * std::sqrt(0.5));
-  }
-
-
-  double depth_in_rail(const Scene &scene, const dealii::Point<3> &p)
-  {
-    return scene.stance().depth_in_rail(p);
   }
 
 
@@ -71,7 +64,7 @@ namespace tread
         constexpr double       close      = 1e-9; // m
         for (unsigned int step = 0; step < most_steps; ++step)
           {
-            const double up = depth_in_rail(scene, place) - depth;
+            const double up = scene.stance().depth_in_rail(place) - depth;
             place[2] += up;
             if (std::abs(up) < close)
               break;

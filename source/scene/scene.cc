@@ -28,4 +28,44 @@ namespace tread
     profile_wear.declare(input.table());
     watchdogs.declare(input.table());
   }
+
+
+  double Scene::traction_coefficient(const unsigned int number) const
+  {
+    return number == 0 || further_wheels.traction_coefficients.empty()
+             ? motion.traction_coefficient
+             : further_wheels.traction_coefficients[number - 1];
+  }
+
+
+  double Scene::rail_begin() const
+  {
+    if (made_shapes.rail_mesh)
+      return made_shapes.rail_mesh->surface.along().begin;
+    const double behind = distance_behind(last_wheel()),
+                 margin =
+                   rail.length > 0. ? 0.5 * (rail.length - motion.meshed_distance() - behind) : rail.margin;
+    return rail.begin.value_or(path_begin() - behind - margin);
+  }
+
+
+  double Scene::rail_end() const
+  {
+    if (made_shapes.rail_mesh)
+      return made_shapes.rail_mesh->surface.along().end;
+    return rail.length > 0. ? rail_begin() + rail.length : meshed_end() + rail.margin;
+  }
+
+
+  double Scene::rail_half_width() const
+  {
+    return rail.is_meshed() ? made_shapes.surfaces.half_width : rail.half_width();
+  }
+
+
+  double Scene::rail_thickness() const
+  {
+    return made_shapes.rail_mesh ? made_shapes.rail_mesh->thickness(path_begin(), made_shapes.first_contact.y)
+                                 : rail.thickness();
+  }
 } // namespace tread

@@ -119,18 +119,12 @@ namespace tread
   }
 
 
-  double factor_across(const Scene &scene, const Vector3 &place)
-  {
-    return scene.stance().factor_across(place);
-  }
-
-
   double mean_factor_across(const Scene &scene)
   {
     double sum = 0., weights = 0.;
     for (const auto &[y, weight] : scene.stance().loaded_lines())
       {
-        sum += weight * factor_across(scene, Vector3{0., y, 0., 0.});
+        sum += weight * scene.stance().factor_across(Vector3{0., y, 0., 0.});
         weights += weight;
       }
     return weights > 0. ? sum / weights : 1.;

@@ -2,7 +2,9 @@
 #include <tread/base/csv_table.h>
 #include <tread/mesh/mesh_rail.h>
 #include <tread/scene/checks.h>
+#include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
+#include <tread/scene/tables.h>
 #include <tread/scene/track_parts.h>
 #include <tread/track/track_beam.h>
 
@@ -65,18 +67,19 @@ namespace tread
         "'Track/Foundation' beam stands for the rail below the meshed piece: 'Rail/Shape' must be head, "
         "block, slices or mesh");
       require(
-        !scene.rail_mesh() || !scene.rail_mesh()->between_planes,
+        !scene.shapes().rail_mesh || !scene.shapes().rail_mesh->between_planes,
         "'Track/Foundation' beam needs a rail of some width, and this one lies between planes of symmetry");
       require(
-        !scene.rail_mesh() ||
-          std::none_of(scene.rail_mesh()->mesh.faces.begin(), scene.rail_mesh()->mesh.faces.end(),
+        !scene.shapes().rail_mesh ||
+          std::none_of(scene.shapes().rail_mesh->mesh.faces.begin(),
+                       scene.shapes().rail_mesh->mesh.faces.end(),
                        [](const NamedFace &face) { return face.boundary == Boundary::end; }),
         "'Track/Foundation' beam turns the rail's cross-sections, and faces named 'end' in 'Rail/Mesh file' "
         "would hold them upright: give them no name");
       scene.track.check();
       const BeamUnderRail beam = beam_under_rail(scene);
       const double        end  = beam.begin + beam.track.n_spans * beam.track.spacing;
-      for (const BeamRow &row : scene.rows_of_beam())
+      for (const BeamRow &row : scene.tables().beam_rows)
         require(row.x > beam.begin && row.x < end,
                 "'Track/Beam file': x_mm " + text_in_mm(row.x) + " lies beyond the beam, which goes from " +
                   text_in_mm(beam.begin) + " to " + text_in_mm(end) + " mm ('Rail/Spans beyond')");
@@ -150,7 +153,8 @@ namespace tread
   }
 
 
-  void Scene::take_support_springs()
+  std::map<int, TrackParameters::Springs> read_support_springs(const TrackSection &track,
+                                                               const std::string  &file)
   {
     require(!track.is_beam(),
             "'Track/Support file' must be empty with 'Track/Foundation' beam, whose supports are all alike");
@@ -171,11 +175,11 @@ namespace tread
        {"ballast_stiffness_MN_per_m", &Springs::ballast_stiffness, 1e6, 0., true},
        {"ballast_damping_kN_s_per_m", &Springs::ballast_damping, 1e3, 0., true},
        {"ballast_gap_mm", &Springs::ballast_gap, 1e-3, 0., true}}};
-    const std::string file  = input.located(track.support_file),
-                      begin = named_file("Track/Support file", file);
+    const std::string        begin = named_file("Track/Support file", file);
     std::vector<std::string> names{"support"};
     for (const Column &column : columns)
       names.push_back(column.name);
+    std::map<int, Springs>     all;
     const CsvTable             table   = table_with(names, "Track/Support file", file);
     const std::vector<double> &numbers = table.column("support");
     require(!numbers.empty() && table.names().size() > 1, begin + "has no rows, or no column beside support");
@@ -186,8 +190,7 @@ namespace tread
         require(numbers[row] == std::round(numbers[row]) && std::abs(numbers[row]) <= most,
                 place + "support " + text_of(numbers[row]) + " is no whole number, or far beyond the rail");
         const int number = static_cast<int>(numbers[row]);
-        require(support_springs.count(number) == 0,
-                place + "support " + std::to_string(number) + " occurs twice");
+        require(all.count(number) == 0, place + "support " + std::to_string(number) + " occurs twice");
         Springs own{track.pad_stiffness, track.ballast_stiffness, track.pad_damping, track.ballast_damping};
         for (const Column &column : columns)
           if (table.has(column.name))
@@ -199,12 +202,13 @@ namespace tread
                       place + column.name + " " + text_of(own.*column.value / column.in_si) +
                         " is too small; at least " + text_of(column.least / column.in_si));
             }
-        support_springs[number] = own;
+        all[number] = own;
       }
+    return all;
   }
 
 
-  void Scene::take_beam_rows()
+  std::vector<BeamRow> read_beam_rows(const std::string &file)
   {
     struct Column
     {
@@ -217,12 +221,13 @@ namespace tread
        {"bending_stiffness_MN_m2", &BeamRow::bending_stiffness, 1e6, 1e-3, 1e3},
        {"shear_stiffness_MN", &BeamRow::shear_stiffness, 1e6, 1e-1, 1e5},
        {"mass_kg_per_m", &BeamRow::mass, 1., 1e-1, 1e4}}};
-    constexpr double  least_length = 5e-3; // m: shorter elements need shorter steps
-    const std::string file = input.located(track.beam_file), begin = named_file("Track/Beam file", file);
+    constexpr double         least_length = 5e-3; // m: shorter elements need shorter steps
+    const std::string        begin        = named_file("Track/Beam file", file);
     std::vector<std::string> names;
     for (const Column &column : columns)
       names.push_back(column.name);
-    const CsvTable table = table_with(names, "Track/Beam file", file);
+    std::vector<BeamRow> rows;
+    const CsvTable       table = table_with(names, "Track/Beam file", file);
     require(table.n_rows() > 0, begin + "has no rows");
     for (std::size_t row = 0; row < table.n_rows(); ++row)
       {
@@ -236,10 +241,11 @@ namespace tread
                       text_of(column.least) + " to " + text_of(column.largest));
             own.*column.value = column.in_si * value;
           }
-        require(beam_rows.empty() || own.x >= beam_rows.back().x + least_length,
+        require(rows.empty() || own.x >= rows.back().x + least_length,
                 place + "x_mm " + text_in_mm(own.x) + " must be at least 5 mm behind that of the row before");
-        beam_rows.push_back(own);
+        rows.push_back(own);
       }
+    return rows;
   }
 
 
@@ -256,7 +262,7 @@ namespace tread
     p.points_across = scene.track.points_across;
     p.two_layers    = scene.track.foundation == Foundation::two_layer || scene.track.is_beam();
     p.sleeper_mass  = scene.track.sleeper_mass;
-    for (const auto &[number, springs] : scene.springs_of_supports())
+    for (const auto &[number, springs] : scene.tables().support_springs)
       p.exceptions[number - first_support(scene)] = springs;
     return p;
   }
@@ -291,8 +297,9 @@ namespace tread
     beam.track           = track_beam_alike(scene);
     beam.track.gravity   = 0.; // it carries nothing but the cells and the wheel
     // So many spans go on beyond both ends of the piece.
-    const MeshFile::Range piece  = scene.rail_mesh() ? scene.rail_mesh()->mesh.range(0)
-                                                     : MeshFile::Range{scene.rail_begin(), scene.rail_end()};
+    const MeshFile::Range piece  = scene.shapes().rail_mesh
+                                     ? scene.shapes().rail_mesh->mesh.range(0)
+                                     : MeshFile::Range{scene.rail_begin(), scene.rail_end()};
     const int             beyond = scene.rail.spans_beyond - 1,
               first =
                 std::floor((piece.begin - scene.track.support_0) / scene.track.sleeper_spacing) - beyond,
@@ -301,7 +308,7 @@ namespace tread
     beam.track.first_support = 0.5 * scene.track.sleeper_spacing;
     beam.begin               = scene.track.support_0 + (first - 0.5) * scene.track.sleeper_spacing;
     beam.track.loaded        = {piece.begin - beam.begin, piece.end - beam.begin, {}};
-    for (const BeamRow &row : scene.rows_of_beam())
+    for (const BeamRow &row : scene.tables().beam_rows)
       beam.track.stretches.push_back(
         {row.x - beam.begin, section(row.bending_stiffness, row.shear_stiffness, row.mass)});
     return beam;
@@ -359,11 +366,11 @@ namespace tread
     // A rail that rolls on its crown under the load rises, and comes back, if the crown's centre lies below
     // its foot.
     const bool stands_upright = scene.rail.angle() == 0. && scene.rail.measured_head.empty() &&
-                                std::abs(scene.first_contact().y) < 1e-6 &&
-                                (!scene.made_defect() || scene.made_defect()->y_middle == 0.) &&
+                                std::abs(scene.shapes().first_contact.y) < 1e-6 &&
+                                (!scene.shapes().defect || scene.shapes().defect->y_middle == 0.) &&
                                 scene.motion.lateral_creepage == 0. && scene.motion.spin == 0.;
     require(
-      scene.track.points_across > 1 || (stands_upright && scene.lateral_radius() > scene.rail.height()),
+      scene.track.points_across > 1 || (stands_upright && lateral_radius(scene) > scene.rail.height()),
       "'Track/Points across' must be at least 2: on one the rail tips over, unless it stands upright "
       "('Rail/Inclination' none), wheel and defect meet it on y = 0, 'Motion/Lateral creepage' and 'Spin "
       "(1 per m)' are 0, and its crown radius exceeds its height, " +
@@ -397,7 +404,7 @@ namespace tread
       }
     const int first = first_support(scene),
               last  = first + static_cast<int>(support_positions(scene).size()) - 1;
-    for (const auto &[support, springs] : scene.springs_of_supports())
+    for (const auto &[support, springs] : scene.tables().support_springs)
       require(support >= first && support <= last, "'Track/Support file' has support " +
                                                      std::to_string(support) + "; the rail has supports " +
                                                      std::to_string(first) + " to " + std::to_string(last));

@@ -55,8 +55,6 @@ namespace tread
     std::vector<std::string> tables_beside_the_path(const Scene &scene)
     {
       std::vector<std::string> lines;
-      if (!scene.has_path())
-        return lines;
       // More than any patch is long.
       constexpr double room = 0.05, largest_pressure = 5e9, least_pressure = 1e7; // m, Pa
       const double     from = scene.path_begin(scene.last_wheel()) - room, to = scene.meshed_end() + room;
@@ -70,7 +68,7 @@ namespace tread
                         text_in_mm(scene.meshed_end()) + " mm: the friction factor is " +
                         text_of(scene.contact.friction_factor(scene.path_begin())) + " on all of it");
       if (const auto &places = scene.contact.across_places; !places.empty() && !scene.is_positioned())
-        if (const Scene::PatchExtent &patch = scene.patch_extent();
+        if (const PatchExtent &patch = scene.shapes().patch;
             places.front() > patch.end || places.back() < patch.begin)
           lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
                           text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +

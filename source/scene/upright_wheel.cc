@@ -8,16 +8,27 @@
 
 namespace tread
 {
+  namespace
+  {
+    /// Position in the rail's own axes, which are inclined with it.
+    dealii::Point<3> in_rail_axes(const Scene &scene, const dealii::Point<3> &p)
+    {
+      const double c = std::cos(scene.rail.angle()), s = std::sin(scene.rail.angle());
+      return {p[0], c * p[1] + s * p[2], -s * p[1] + c * p[2]};
+    }
+  } // namespace
+
+
   double UprightWheel::rolling_radius() const
   {
-    const auto &offset = scene.surfaces().tread_offset;
-    return scene.wheel.radius + (offset ? offset(scene.first_contact().y) : 0.);
+    const auto &offset = scene.shapes().surfaces.tread_offset;
+    return scene.wheel.radius + (offset ? offset(scene.shapes().first_contact.y) : 0.);
   }
 
 
   double UprightWheel::patch_y() const
   {
-    return scene.first_contact().y;
+    return scene.shapes().first_contact.y;
   }
 
 
@@ -33,7 +44,7 @@ namespace tread
   {
     const double beside = p[1] - path_y(scene);
     if (body == rail_body)
-      return {{p[0], beside, scene.rail_mesh() ? depth_in_rail(p) : -scene.in_rail_axes(p)[2]}};
+      return {{p[0], beside, scene.shapes().rail_mesh ? depth_in_rail(p) : -in_rail_axes(scene, p)[2]}};
     const double dx = p[0] - scene.path_begin(body - wheel_body(0)), dz = p[2] - scene.axle_height();
     return {{scene.wheel.radius * std::atan2(dx, -dz), beside, scene.wheel.radius - std::hypot(dx, dz)}};
   }
@@ -41,8 +52,8 @@ namespace tread
 
   double UprightWheel::depth_in_rail(const dealii::Point<3> &p) const
   {
-    const auto &height = scene.surfaces().defect;
-    return scene.surfaces().rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
+    const auto &height = scene.shapes().surfaces.defect;
+    return scene.shapes().surfaces.rail_top(p[1]) + (height ? height(p[0], p[1]) : 0.) - p[2];
   }
 
 
@@ -71,7 +82,8 @@ namespace tread
             beside,
             [this, begin, height](const dealii::Point<3> &p) {
               const double ahead = p[0] - begin, down = height - p[2];
-              return scene.surfaces().wheel_radius(std::atan2(ahead, down), p[1]) - std::hypot(ahead, down);
+              return scene.shapes().surfaces.wheel_radius(std::atan2(ahead, down), p[1]) -
+                     std::hypot(ahead, down);
             }};
   }
 
@@ -85,7 +97,7 @@ namespace tread
   double UprightWheel::factor_across(const Vector3 &place) const
   {
     constexpr double step = 50e-6; // m
-    const auto      &top  = scene.surfaces().rail_top;
+    const auto      &top  = scene.shapes().surfaces.rail_top;
     return scene.contact.factor_across(place[1],
                                        std::atan2(top(place[1] + step) - top(place[1] - step), 2. * step));
   }
@@ -95,7 +107,7 @@ namespace tread
   {
     // Hertz's pressure, summed along the rail.
     constexpr int                          n     = 50;
-    const Scene::PatchExtent              &patch = scene.patch_extent();
+    const PatchExtent                     &patch = scene.shapes().patch;
     std::vector<std::pair<double, double>> lines;
     for (int k = -n; k <= n; ++k)
       {
@@ -108,8 +120,8 @@ namespace tread
 
   std::vector<std::pair<std::string, std::vector<Island>>> UprightWheel::parts_of_patches() const
   {
-    if (scene.is_between_planes()) // whose patch goes on as its own image
+    if (scene.shapes().is_between_planes()) // whose patch goes on as its own image
       return {};
-    return {{"the patch", scene.islands()}};
+    return {{"the patch", scene.shapes().islands}};
   }
 } // namespace tread

@@ -6,7 +6,6 @@
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/recorded.h>
 #include <tread/scene/scene.h>
-#include <tread/scene/surface_laws.h>
 #include <tread/scene/wheelset_case.h>
 
 #include <cmath>
@@ -19,13 +18,13 @@ namespace tread
     /// @throws InputError unless the motion lasts as long as the run, in positions that are allowed
     void check_guidance(const Scene &scene)
     {
-      if (!scene.motion_of_wheelset())
+      if (!scene.tables().wheelset_motion)
         return;
       const double cell     = 2. * scene.mesh.finest_cell; // half a one and the last group of steps
       const double duration = (scene.motion.meshed_distance() + cell) / scene.motion.speed;
-      require(scene.motion_of_wheelset()->end() >= duration - cell / scene.motion.speed,
-              "'Guidance/File' ends at " + text_of(scene.motion_of_wheelset()->end()) + " s; the run takes " +
-                text_of(scene.motion.meshed_distance() / scene.motion.speed) + " s");
+      require(scene.tables().wheelset_motion->end() >= duration - cell / scene.motion.speed,
+              "'Guidance/File' ends at " + text_of(scene.tables().wheelset_motion->end()) +
+                " s; the run takes " + text_of(scene.motion.meshed_distance() / scene.motion.speed) + " s");
       constexpr unsigned int n_instants = 200;
       constexpr double       largest    = 0.2; // as of the creepages of 'Motion'
       double                 before     = scene.across(0.).y;
@@ -104,69 +103,74 @@ namespace tread
                                     " mm deep into its rail: no wheelset stands there; at most " +
                                     text_in_mm(deepest) + " mm, as 'Wheelset/Roll (mrad)' may be missing");
     }
+
+    /// @throws InputError
+    WheelOnRail make_wheel_on_rail(const Scene &scene)
+    {
+      const auto wheel_profile = [&] {
+        try
+          {
+            return wheel_curve(scene.parameters().located(scene.wheel.tread_profile),
+                               scene.wheel.profile_placement);
+          }
+        catch (const std::runtime_error &error)
+          {
+            throw InputError("'Wheel/Tread profile': " +
+                             refused_tread(scene.wheel.tread_profile, error.what()));
+          }
+      };
+      const auto rail_profile = [&] {
+        if (scene.rail.measured_head.empty())
+          return rail_curve(scene.rail.standard_profile());
+        try
+          {
+            return measured_rail_curve(scene.parameters().located(scene.rail.measured_head),
+                                       scene.rail.head_placement);
+          }
+        catch (const std::runtime_error &error)
+          {
+            throw InputError("'Rail/Measured head': " + std::string(error.what()));
+          }
+      };
+      const auto sliced_rail = [&] {
+        try
+          {
+            return std::make_shared<const SlicedRail>(
+              read_rail_slices(scene.parameters().located(scene.rail.slices)));
+          }
+        catch (const InputError &error)
+          {
+            throw InputError("'Rail/Slices': " + std::string(error.what()));
+          }
+      };
+      require(!scene.rail.is_block(),
+              "a wheelset in its track needs a rail with a gauge face: 'Rail/Shape' cannot be block");
+      try
+        {
+          if (scene.rail.is_sliced())
+            return WheelOnRail(WheelSurface(wheel_profile()), sliced_rail(), scene.wheel.radius,
+                               scene.wheelset.track,
+                               WheelOnRail::RailOrigin{scene.rail.slices_y, scene.rail.slices_z});
+          return WheelOnRail(wheel_profile(), rail_profile().turned(scene.rail.angle()), scene.wheel.radius,
+                             scene.wheelset.track);
+        }
+      catch (const InputError &)
+        {
+          throw;
+        }
+      catch (const std::runtime_error &error)
+        {
+          throw InputError("wheelset in its track: " + std::string(error.what()));
+        }
+    }
   } // namespace
 
 
   const WheelOnRail &Scene::wheel_on_rail() const
   {
     if (!on_rail)
-      on_rail = std::make_shared<const WheelOnRail>(make_wheel_on_rail());
+      on_rail = std::make_shared<const WheelOnRail>(make_wheel_on_rail(*this));
     return *on_rail;
-  }
-
-
-  WheelOnRail Scene::make_wheel_on_rail() const
-  {
-    const auto wheel_profile = [&] {
-      try
-        {
-          return wheel_curve(input.located(wheel.tread_profile), wheel.profile_placement);
-        }
-      catch (const std::runtime_error &error)
-        {
-          throw InputError("'Wheel/Tread profile': " + refused_tread(wheel.tread_profile, error.what()));
-        }
-    };
-    const auto rail_profile = [&] {
-      if (rail.measured_head.empty())
-        return rail_curve(rail.standard_profile());
-      try
-        {
-          return measured_rail_curve(input.located(rail.measured_head), rail.head_placement);
-        }
-      catch (const std::runtime_error &error)
-        {
-          throw InputError("'Rail/Measured head': " + std::string(error.what()));
-        }
-    };
-    const auto sliced_rail = [&] {
-      try
-        {
-          return std::make_shared<const SlicedRail>(read_rail_slices(input.located(rail.slices)));
-        }
-      catch (const InputError &error)
-        {
-          throw InputError("'Rail/Slices': " + std::string(error.what()));
-        }
-    };
-    require(!rail.is_block(),
-            "a wheelset in its track needs a rail with a gauge face: 'Rail/Shape' cannot be block");
-    try
-      {
-        if (rail.is_sliced())
-          return WheelOnRail(WheelSurface(wheel_profile()), sliced_rail(), wheel.radius, wheelset.track,
-                             WheelOnRail::RailOrigin{rail.slices_y, rail.slices_z});
-        return WheelOnRail(wheel_profile(), rail_profile().turned(rail.angle()), wheel.radius,
-                           wheelset.track);
-      }
-    catch (const InputError &)
-      {
-        throw;
-      }
-    catch (const std::runtime_error &error)
-      {
-        throw InputError("wheelset in its track: " + std::string(error.what()));
-      }
   }
 
 
@@ -180,7 +184,8 @@ namespace tread
 
   Across Scene::across(const double time) const
   {
-    Across now = wheelset_motion->at(time, {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
+    Across now =
+      read_tables.wheelset_motion->at(time, {wheelset.shift.value_or(0.), wheelset.yaw, wheelset.roll, {}});
     now.y -= wheelset.shift.value_or(0.);
     return now;
   }

@@ -47,7 +47,7 @@ namespace tread
       require_half_space(scene);
       const reference::RollingEstimate half_space = reference::estimate_rolling(c);
       compare(summary, answer, half_space, c.prescribe_force);
-      return patch_nodes(half_space.fields, scene.first_contact().y);
+      return patch_nodes(half_space.fields, scene.shapes().first_contact.y);
     }
 
 
@@ -56,7 +56,7 @@ namespace tread
     std::string friction_varies_at_end(const Scene &scene, const double normal_force)
     {
       const double half_length =
-        hertz(scene, normal_force > 0. ? normal_force : scene.static_load()).semi_axis_x;
+        scene.stance().ellipse(normal_force > 0. ? normal_force : scene.static_load()).semi_axis_x;
       return scene.contact.friction_varies(scene.path_end() - EndOfWay::length - half_length,
                                            scene.path_end() + half_length)
                ? format("'Contact/Friction factors' change in the patch at the end or on its last %g mm",
@@ -72,11 +72,11 @@ namespace tread
                                             const ContactAnswer    &answer,
                                             std::vector<PatchNode> &patch)
     {
-      if (scene.has_defect())
+      if (scene.shapes().defect)
         return "no comparison with steady rolling: there is a defect on the rail";
-      if (!scene.is_round())
+      if (!scene.shapes().is_round())
         return "no comparison with steady rolling: the wheel is not round";
-      if (scene.has_uneven_mesh())
+      if (scene.shapes().has_uneven_mesh())
         return "no comparison with steady rolling: the running surface of 'Rail/Mesh file' changes along the "
                "path";
       if (!(answer.force[2] > 0.))
@@ -189,7 +189,7 @@ namespace tread
       {
         compared.by_patch = add_wheelset(run, summary);
         if (run.model.wheelset.problem().empty())
-          compared.reference_patch = run.model.wheelset.placed().table_nodes();
+          compared.reference_patch = table_nodes(run.model.wheelset.placed());
         if (const std::string varies = friction_varies_at_end(scene, force[2] / scene.wheelset.n_wheels());
             !varies.empty())
           compared.note = "the half-space beside is in steady rolling, but " + varies;
@@ -200,7 +200,7 @@ namespace tread
     summarise(summary, scene, "explicit finite elements", answer, run.completed);
     summary.show("free_rolling_creepage", "  counted from free rolling at", 1e3, wheel.free_creepage,
                  "creepage, 1e-3");
-    if (run.completed || !scene.rolls_smoothly())
+    if (run.completed || !scene.shapes().are_smooth())
       compared.note = compare_with_steady_rolling(scene, summary, answer, compared.reference_patch);
     return compared;
   }

@@ -105,7 +105,7 @@ namespace tread
                "least %.0f mm more",
                1e3 * EndOfWay::length, 1e3 * averaged, 1e3 * EndOfWay::length));
     // The patch at the end is compared as one on the finest cells.
-    const double semi_axis = hertz(scene, scene.static_load()).semi_axis_x;
+    const double semi_axis = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     if (const Scene::Range patch{scene.path_end() - semi_axis, scene.path_end() + semi_axis};
         !scene.has_impacts() && !is_finest(scene, patch.begin, patch.end))
       warnings.push_back(

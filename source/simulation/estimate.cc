@@ -153,8 +153,9 @@ namespace tread
         }
       for (RollingWheel &wheel : model.wheels)
         {
-          wheel.hub.motion.velocity_x       = model.scene.motion.speed;
-          wheel.hub.motion.angular_velocity = model.scene.motion.speed / model.scene.rolling_radius();
+          wheel.hub.motion.velocity_x = model.scene.motion.speed;
+          wheel.hub.motion.angular_velocity =
+            model.scene.motion.speed / model.scene.stance().rolling_radius();
         }
       model.dynamics.set_rigid_velocities();
       model.contact.scale_impulses(model.scene.time_stepping.courant_number *
@@ -308,7 +309,7 @@ namespace tread
       {
         for (const std::string &unused : scene.unused_parameters())
           std::printf("WARNING: %s\n", unused.c_str());
-        if (const std::string defect = scene.defect_in_words(); !defect.empty())
+        if (const std::string defect = defect_in_words(scene); !defect.empty())
           std::printf("%s\n", defect.c_str());
         for (const std::string &doubt : found)
           std::printf("WARNING: %s\n", doubt.c_str());

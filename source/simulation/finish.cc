@@ -101,8 +101,8 @@ namespace tread
       }
 
     const double                  distance = model.position() - scene.path_begin();
-    const reference::HertzEllipse ellipse =
-      hertz(scene, normal_force > 0. ? normal_force / scene.wheelset.n_wheels() : scene.static_load());
+    const reference::HertzEllipse ellipse  = scene.stance().ellipse(
+       normal_force > 0. ? normal_force / scene.wheelset.n_wheels() : scene.static_load());
     Rolled rolled;
     rolled.patch_lengths =
       (distance - (torque_released ? scene.motion.hold_distance : 0.)) / (2. * ellipse.semi_axis_x);
@@ -172,7 +172,7 @@ namespace tread
           warnings.push_back(doubt);
         for (const std::string &doubt : doubts_at_end(model, end_of_way, model.position() - went_on_at))
           warnings.push_back(doubt);
-        if (scene.rolls_smoothly() && !rolled.long_enough())
+        if (scene.shapes().are_smooth() && !rolled.long_enough())
           warnings.push_back(format(
             "only %.1f patch lengths rolled since the %s: steady rolling takes %g or more",
             rolled.patch_lengths, torque_released ? "torque acts" : "start", rolled.lengths_to_be_steady));
@@ -253,7 +253,7 @@ namespace tread
     if (scene.has_impacts())
       std::printf("\n%s", report.extremes.c_str());
     // Where nothing is steady, the figures of one instant say little.
-    if (scene.rolls_smoothly())
+    if (scene.shapes().are_smooth())
       std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
                   scene.stance().load_direction().c_str(), 1e-3 * force[2], 100. * end_of_way.normal_ripple(),
                   force[2] > 0. ? force[0] / force[2] : 0., compared.by_patch.c_str(),

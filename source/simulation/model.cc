@@ -23,7 +23,7 @@ namespace tread
     : scene(scene)
     , comm(comm)
     , mesh(comm,
-           make_bodies(scene, fine_window(scene, window.number, window.tread)),
+           scene.stance().make_bodies(fine_window(scene, window.number, window.tread)),
            scene.time_stepping.levels - 1,
            cell_cost(scene),
            has_window(scene))
@@ -57,7 +57,7 @@ namespace tread
   double added_mass_error_estimate(const Scene &scene, const double mass)
   {
     constexpr double omega = 2. * dealii::numbers::PI * 1e3; // rad/s
-    return mass * omega * omega / hertz(scene, scene.static_load()).stiffness;
+    return mass * omega * omega / scene.stance().ellipse(scene.static_load()).stiffness;
   }
 
 

@@ -9,7 +9,6 @@
 #include <tread/dynamics/parts/track_beyond.h>
 #include <tread/dynamics/parts/wheel.h>
 #include <tread/scene/parts.h>
-#include <tread/scene/surface_laws.h>
 #include <tread/scene/track_parts.h>
 #include <tread/simulation/model.h>
 #include <tread/simulation/model_parts.h>
@@ -63,7 +62,7 @@ namespace tread
         add_supports(model);
       else if (!model.scene.track.has_moving_base())
         dynamics.fix_nodes(dynamics.support_nodes(rail_body));
-      if (model.scene.rail_mesh())
+      if (model.scene.shapes().rail_mesh)
         {
           dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
           dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
@@ -104,7 +103,7 @@ namespace tread
       if (!section.friction_places.empty() || section.varies_across())
         model.contact.vary_friction([&scene](const Vector3 place) {
           return scene.contact.friction_factor(place[0]) *
-                 (scene.contact.varies_across() ? factor_across(scene, place) : 1.);
+                 (scene.contact.varies_across() ? scene.stance().factor_across(place) : 1.);
         });
       if (!section.friction_pressures.empty())
         model.contact.vary_friction_with_pressure(
@@ -124,7 +123,7 @@ namespace tread
         // The sliding is a velocity, at the middle of the step: there the hub will be half a step further.
         const WheelHub::Motion &hub = wheel->hub.motion;
         const double x = place[0] - (hub.x + 0.5 * model.dynamics.state.time_step * hub.velocity_x),
-                     y = place[1] - model.scene.first_contact().y;
+                     y = place[1] - model.scene.shapes().first_contact.y;
         return motion.speed * Vector3{-motion.spin * y, motion.lateral_creepage + motion.spin * x, 0., 0.};
       });
     }

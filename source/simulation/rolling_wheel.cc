@@ -25,7 +25,8 @@ namespace tread
 
   double RollingWheel::creepage(const Scene &scene) const
   {
-    return hub.motion.angular_velocity * scene.rolling_radius() / scene.motion.speed - 1. - free_creepage;
+    return hub.motion.angular_velocity * scene.stance().rolling_radius() / scene.motion.speed - 1. -
+           free_creepage;
   }
 
 
@@ -42,7 +43,7 @@ namespace tread
     const WheelHub::Motion &motion = hub.motion;
     WheelsetRates           rates;
     rates.angular_velocity =
-      motion.angular_velocity - free_creepage * scene.motion.speed / scene.rolling_radius();
+      motion.angular_velocity - free_creepage * scene.motion.speed / scene.stance().rolling_radius();
     rates.across_speed = motion.velocity_y;
     rates.yaw_rate     = motion.yaw_rate;
     rates.roll_rate    = motion.roll_rate;

@@ -4,6 +4,7 @@
 #include <tread/base/version.h>
 #include <tread/base/went_wrong.h>
 #include <tread/scene/assumptions.h>
+#include <tread/scene/doubts.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/simulation/checkpoint.h>
@@ -153,10 +154,10 @@ namespace tread
       {
         for (RollingWheel &wheel : model.wheels)
           {
-            wheel.hub.drive        = Drive::torque;
-            wheel.hub.drive_torque = scene.traction_coefficient(wheel.number) * scene.wheelset.n_wheels() *
-                                     scene.static_load() *
-                                     (scene.rolling_radius() + wheel.hub.motion.z - wheel.hub.start()[2]);
+            wheel.hub.drive = Drive::torque;
+            wheel.hub.drive_torque =
+              scene.traction_coefficient(wheel.number) * scene.wheelset.n_wheels() * scene.static_load() *
+              (scene.stance().rolling_radius() + wheel.hub.motion.z - wheel.hub.start()[2]);
           }
         torque_released = true;
       }
@@ -199,7 +200,7 @@ namespace tread
       progress.say("assumed: " + assumption);
     for (const std::string &unused : scene.unused_parameters())
       progress.say("WARNING: " + unused);
-    if (const std::string defect = scene.defect_in_words(); !defect.empty())
+    if (const std::string defect = defect_in_words(scene); !defect.empty())
       progress.say(defect);
     for (const std::string &line : MeasuredProfiles(scene).smoothing())
       progress.say(line);

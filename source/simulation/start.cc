@@ -138,8 +138,8 @@ namespace tread
           }
         else if (scene.rail.is_sliced())
           wheel.hub.begin_to_rise(scene.placed_wheel().rise().speed);
-        wheel.hub.motion.angular_velocity =
-          scene.motion.speed / scene.rolling_radius() * (1. + wheel.target_creepage + wheel.free_creepage);
+        wheel.hub.motion.angular_velocity = scene.motion.speed / scene.stance().rolling_radius() *
+                                            (1. + wheel.target_creepage + wheel.free_creepage);
       }
     if (model.supports || model.rail_on_beam)
       model.dynamics.set_bending_velocities();
@@ -158,12 +158,13 @@ namespace tread
     if (scene.is_positioned())
       {
         wheel.target_creepage =
-          given_angular_velocity(scene) * scene.rolling_radius() / scene.motion.speed - 1.;
+          given_angular_velocity(scene) * scene.stance().rolling_radius() / scene.motion.speed - 1.;
         return predicts_tractions ? [this](const Vector3 &place) {
-          return scene.placed_wheel().traction_over_pressure(place);
+          return traction_over_pressure(scene.placed_wheel(), place);
         } : Tractions();
       }
-    const auto of_patch = [y = scene.first_contact().y](const reference::RollingResult &fields) -> Tractions {
+    const auto of_patch =
+      [y = scene.shapes().first_contact.y](const reference::RollingResult &fields) -> Tractions {
       return [fields, y](const Vector3 &place) {
         return traction_over_pressure(fields, place[0], place[1] - y);
       };

@@ -93,7 +93,7 @@ namespace tread
           return parameter.path == path && ParameterFile::same_value(parameter.value, value);
         });
       };
-      // See Scene::settles().
+      // See settles().
       if (of_twin_is("Scene/Quasi-static", "true") && of_twin_is("Track/Foundation", "rigid") &&
           of_twin_is("Defect/Length (mm)", "0"))
         return "the axle of " + twin + " settles under its load, as in steady rolling, and that of " + run +

@@ -4,7 +4,6 @@
 #include <tread/base/version.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
-#include <tread/scene/half_space_case.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/track_parts.h>
 #include <tread/simulation/rolling_wheel.h>
@@ -515,7 +514,7 @@ namespace tread
       if (!supports)
         {
           system.fix_nodes(mesh.boundary_nodes(rail_body, Boundary::support));
-          if (scene.rail_mesh())
+          if (scene.shapes().rail_mesh)
             {
               system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::end), 0);
               system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::side), 1);
@@ -558,10 +557,11 @@ namespace tread
         "tread modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "
         "rail of the cells has");
     Progress   progress(dealii::Utilities::MPI::this_mpi_process(comm) == 0);
-    const Mesh mesh(comm, make_bodies(scene));
+    const Mesh mesh(comm, scene.stance().make_bodies({}));
     // Where the rail is struck: at the defect, otherwise under the wheel.
-    const bool   has_defect = scene.defect.shape != defect_shapes().front().name;
-    const double y = scene.first_contact().y, x = has_defect ? scene.defect.position : scene.path_begin();
+    const bool   has_defect             = scene.defect.shape != defect_shapes().front().name;
+    const double y                      = scene.shapes().first_contact.y,
+                 x                      = has_defect ? scene.defect.position : scene.path_begin();
     const ElasticSystem::Place on_rail  = disc(mesh, rail_body, x, y),
                                on_wheel = disc(mesh, wheel_body(0), scene.path_begin(), y);
 
@@ -622,7 +622,7 @@ namespace tread
     writer.finish();
 
     // A roughness of unit amplitude between wheel and rail. Hertz's spring holds what they are dented.
-    const double stiffness = hertz(scene, scene.static_load()).stiffness,
+    const double stiffness = scene.stance().ellipse(scene.static_load()).stiffness,
                  dents     = dent(scene.wheel.material.elastic()) + dent(scene.rail.material.elastic());
     for (ReceptanceRow &row : rows)
       row.contact_force = 1. / std::abs(1. / stiffness + row.wheel + row.rail - dents);

@@ -133,8 +133,8 @@ namespace tread
           for (unsigned int k = 0; k <= 60; ++k)
             depths.push_back(smaller * (k <= 40 ? 0.025 * k : 1. + 0.1 * (k - 40)));
           const auto add_row = [&](const char *line, const Point &p, const Stress &s) {
-            table << name << ',' << line << ',' << 1e3 * p[0] << ',' << 1e3 * scene.first_contact().y << ','
-                  << 1e3 * p[2];
+            table << name << ',' << line << ',' << 1e3 * p[0] << ',' << 1e3 * scene.shapes().first_contact.y
+                  << ',' << 1e3 * p[2];
             for (const double value : {s.von_mises(), s.mean(), s.xx, s.yy, s.zz, s.xy, s.xz, s.yz})
               table << ',' << 1e-6 * value;
             table << '\n';
@@ -243,7 +243,7 @@ namespace tread
 
     Summary       summary;
     ContactAnswer answer = contact_answer(estimate);
-    answer.patch.y_of_pressure += scene.first_contact().y;
+    answer.patch.y_of_pressure += scene.shapes().first_contact.y;
     summarise(summary, scene, "half-space solver", answer, true);
     const reference::RollingResult &half_space = estimate.fields;
     for (const auto &[name, value] :
@@ -270,7 +270,7 @@ namespace tread
     std::vector<std::string> warnings = scene.unused_parameters();
     for (const std::vector<std::string> &more : {implausible_values(scene), profiles.warnings()})
       warnings.insert(warnings.end(), more.begin(), more.end());
-    if (!scene.is_round())
+    if (!scene.shapes().is_round())
       warnings.push_back("the wheel is taken as round: tread positions solves wheels that are not");
     profiles.summarise(summary);
     summary.set("wall_s", progress.seconds());
@@ -281,7 +281,7 @@ namespace tread
     RunFolder folder(path, comm, scene.output.pictures);
     folder.remove_results();
     folder.write("parameters.prm", scene.parameters().of_run());
-    const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.first_contact().y);
+    const std::vector<PatchNode> nodes = patch_nodes(half_space, scene.shapes().first_contact.y);
     folder.write_table("patch.csv", patch_columns(), nodes);
     write_steady_damage(scene, {{nodes, scene.motion.speed * (1. + answer.creepage)}}, folder, summary,
                         warnings);
@@ -308,7 +308,7 @@ namespace tread
       progress.say(line);
     for (const std::string &warning : warnings)
       progress.say("WARNING: " + warning);
-    if (scene.made_defect())
+    if (scene.shapes().defect)
       progress.say("the defect is left out: half-space theory rolls over a smooth rail");
     progress.say(summary.table());
     if (!no_transient.empty())

@@ -61,10 +61,10 @@ namespace tread
     RunFolder folder(path, comm);
     folder.remove_results();
     folder.write("parameters.prm", scene.parameters().of_run());
-    folder.write_table("patch.csv", patch_columns(), placed.table_nodes());
+    folder.write_table("patch.csv", patch_columns(), table_nodes(placed));
     std::vector<PassedPatch> passed;
     for (const WheelPatch &patch : contact.patches)
-      passed.push_back({placed.table_nodes(patch), given_angular_velocity(scene) * patch.rolling_radius});
+      passed.push_back({table_nodes(placed, patch), given_angular_velocity(scene) * patch.rolling_radius});
     write_steady_damage(scene, passed, folder, summary, warnings);
     summary.set("warnings", warnings);
     profiles.write(folder);

@@ -127,7 +127,7 @@ namespace scene_parts
       return;
     constexpr double more    = 1.001;
     const double     load    = scene.static_load();
-    const auto       ellipse = hertz(scene, load), next = hertz(scene, more * load);
+    const auto       ellipse = scene.stance().ellipse(load), next = scene.stance().ellipse(more * load);
     check.relative(name + "stiffness of the contacts, GN/m", 1e-9 * settling->stiffness,
                    1e-9 * n * (more - 1.) * load / (next.approach - ellipse.approach), allowed);
     check.relative(name + "time of half a patch, ms", 1e3 * settling->time,
@@ -550,7 +550,7 @@ namespace scene_parts
   /// Height (mm) over the rail's profile at a place (mm).
   double height(const Scene &scene, const double x, const double y)
   {
-    return 1e3 * scene.rail_height()(1e-3 * x, 1e-3 * y);
+    return 1e3 * scene.shapes().rail_height(1e-3 * x, 1e-3 * y);
   }
 
   void check_dips(tests::Check &check)
@@ -587,9 +587,9 @@ namespace scene_parts
     const Scene::Range region = peak_range(*peaks);
     check.absolute("peaks: from the middle of the dip, mm", 1e3 * region.begin, 5., 1e-9);
     check.absolute("peaks: to a semi-axis behind its end, mm", 1e3 * region.end,
-                   15. + 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_x, 1e-9);
+                   15. + 1e3 * peaks->stance().ellipse(peaks->static_load()).semi_axis_x, 1e-9);
     // As wide as the patch, but no wider than to where a round edge runs at 45 degrees.
-    const double patch = 1e3 * hertz(*peaks, peaks->static_load()).semi_axis_y;
+    const double patch = 1e3 * peaks->stance().ellipse(peaks->static_load()).semi_axis_y;
     check.absolute("peaks: half width of the patch, mm", 1e3 * peak_half_width(*peaks), patch, 1e-9);
     for (const Settings &narrow :
          {Settings{"Defect/Width (mm)=6"}, Settings{"Defect/Length (mm)=6", "Defect/Depth (mm)=0.05"},
@@ -609,7 +609,7 @@ namespace scene_parts
 
     // The wheel ends at 30 mm, and its patch a semi-axis of some 7 mm further on; not to be sure has room.
     const auto met = [&](const Settings &more) {
-      return scene_of(dip, more)->defect_in_words().find("does NOT reach it") == std::string::npos;
+      return defect_in_words(*scene_of(dip, more)).find("does NOT reach it") == std::string::npos;
     };
     check.that("a dip under the path is met", met({}));
     check.that("one before the start is not", !met({"Defect/Position (mm)=-70"}));
@@ -933,7 +933,7 @@ namespace scene_parts
             highest = std::max(highest, height(*scene, x, 0.));
           }
         check.relative(std::string("profile with ramps: depth in words, of ") + depth + " mm, mm",
-                       1e3 * scene->made_defect()->depth, std::max(-lowest, highest), 1e-4);
+                       1e3 * scene->shapes().defect->depth, std::max(-lowest, highest), 1e-4);
         if (expected > 0.)
           check.relative("profile with ramps: as deep as given, mm", std::max(-lowest, highest), expected,
                          1e-4);
@@ -982,7 +982,7 @@ namespace scene_parts
     // The running circle lies 3 mm to the field side; the cone is thicker towards the gauge side.
     const auto beside =
       scene_of({"Rail/Inclination=1:20", "Wheel/Tread profile=cone 1:20", "Wheel/Lateral position (mm)=3"});
-    const auto &offset = beside->surfaces().tread_offset;
+    const auto &offset = beside->shapes().surfaces.tread_offset;
     check.absolute("tread on its running circle, mm", 1e3 * offset(3e-3), 0., 1e-9);
     check.absolute("tread 10 mm to the field side of it, mm", 1e3 * offset(13e-3), -0.5, 1e-9);
     check.absolute("tread 10 mm to the gauge side of it, mm", 1e3 * offset(-7e-3), 0.5, 1e-9);
@@ -1003,7 +1003,7 @@ namespace scene_parts
     check.absolute("measured head: the same to the gauge side, mm", height(*worn, 0., -29.5), -0.0135,
                    picometre);
     check.absolute("measured head: nothing 5 mm beside, mm", height(*worn, 0., 32.5), 0., picometre);
-    check.that("a new rail has no heights", !beside->rail_height());
+    check.that("a new rail has no heights", !beside->shapes().rail_height);
 
     // Depth counts from the crown of 300 mm radius, at x, y.
     const auto                  cells     = scene_of({"Output/Cells=-3,8,2;5,-4,3.5"});
@@ -1035,7 +1035,7 @@ namespace scene_parts
       scene_of(block, {"Mesh/Finest cell (mm)=1", "Mesh/Path cell (mm)=2", "Mesh/Fine from (mm)=-10",
                        "Mesh/Fine to (mm)=30", "Defect/Position (mm)=5", "Motion/Start (mm)=-60",
                        "Motion/Rolled distance (mm)=100"});
-    const std::vector<Body> bodies = make_bodies(*scene);
+    const std::vector<Body> bodies = scene->stance().make_bodies({});
     for (const double x : {-58., -40., -7., -3., 15., 33., 37.})
       {
         const double expected = x > -5. && x < 35. ? 1. : 2.;
@@ -1062,7 +1062,7 @@ namespace scene_parts
        "Contact/Friction coefficient=0.43", "Wheel/Young's modulus (GPa)=205", "Wheel/Poisson's ratio=0.29",
        "Rail/Young's modulus (GPa)=207", "Rail/Poisson's ratio=0.28"});
     const reference::RollingCase c       = half_space_case(*scene);
-    const double                 rolling = scene->rolling_radius();
+    const double                 rolling = scene->stance().rolling_radius();
     check.relative("half-space: radius 10 mm to the field side, relative", c.radius_change(10e-3),
                    -0.5e-3 / rolling, 1e-6);
     check.relative("half-space: radius 10 mm to the gauge side, relative", c.radius_change(-10e-3),
@@ -1227,7 +1227,7 @@ namespace scene_parts
       scene_of({"Rail/Inclination=1:40", "Wheel/Tread profile=S1002", "Wheelset/Lateral shift (mm)=2",
                 "Contact/Friction coefficient=0", "Motion/Creepage=0", "Mesh/Finest cell (mm)=2",
                 "Mesh/Fine half width (mm)=40"});
-    const std::string said = tests::complaint<InputError>([&] { make_bodies(*scene); });
+    const std::string said = tests::complaint<InputError>([&] { scene->stance().make_bodies({}); });
     const std::string from = "its finest cells reach from ", to = " to ";
     const std::size_t at = said.find(from), behind = said.find(to, at);
     if (check.that("finest cells beyond the profile are refused: " + said,
@@ -1305,9 +1305,9 @@ namespace scene_parts
     // Without a length that is the largest, as near to the usual one as the stretches allow.
     Settings usual = until("90");
     usual.erase(usual.begin());
-    const auto   scene    = scene_of(way, usual);
-    const auto   windows  = tread::windows(*scene);
-    const double own      = 2.5 * hertz(*scene, scene->static_load()).semi_axis_x; // without supports
+    const auto   scene   = scene_of(way, usual);
+    const auto   windows = tread::windows(*scene);
+    const double own = 2.5 * scene->stance().ellipse(scene->static_load()).semi_axis_x; // without supports
     unsigned int expected = 0;
     for (const double stretch : {269e-3, 142e-3, 189e-3})
       expected += std::max(1., std::round(stretch / own));

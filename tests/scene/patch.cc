@@ -34,10 +34,10 @@ TREAD_TEST(scene_patch)(tests::Check &check, const tests::Arguments &)
 {
   Scene crown;
   crown.read("", {"Rail/Shape=block", "Mesh/Finest cell (mm)=1.3", "Mesh/Fine half width (mm)=9"});
-  const double b = hertz(crown, crown.static_load()).semi_axis_y;
+  const double b = crown.stance().ellipse(crown.static_load()).semi_axis_y;
   // Elements of a tenth of the semi-axis; the outermost centres lie inside.
   check.absolute("round crown: half the patch's width over Hertz's",
-                 0.5 * (crown.patch_extent().end - crown.patch_extent().begin) / b, 0.95, 0.051);
+                 0.5 * (crown.shapes().patch.end - crown.shapes().patch.begin) / b, 0.95, 0.051);
   check.absolute("round crown: the path's middle, mm", 1e3 * path_y(crown), 0., 0.);
 
   // Tractions of a start: the half-space's in its patch, beside it those of its rim.
@@ -58,8 +58,8 @@ TREAD_TEST(scene_patch)(tests::Check &check, const tests::Arguments &)
       const std::string name = "S1002 on " + profile + " 1:40: ";
       Scene             scene;
       scene.read("", s1002(profile, "0"));
-      const Scene::PatchExtent       patch = scene.patch_extent();
-      const double                   y     = scene.first_contact().y;
+      const PatchExtent              patch = scene.shapes().patch;
+      const double                   y     = scene.shapes().first_contact.y;
       const reference::RollingResult fine  = reference::solve_rolling(half_space_case(scene));
       double                         begin = 0., end = 0.;
       for (std::size_t i = 0; i < fine.y.size(); ++i)
@@ -68,7 +68,8 @@ TREAD_TEST(scene_patch)(tests::Check &check, const tests::Arguments &)
             begin = std::min(begin, fine.y[i]);
             end   = std::max(end, fine.y[i]);
           }
-      const double element = 0.1 * hertz(scene, scene.static_load()).semi_axis_y + 0.5 * fine.element_size;
+      const double element =
+        0.1 * scene.stance().ellipse(scene.static_load()).semi_axis_y + 0.5 * fine.element_size;
       check.absolute(name + "one side of the first contact, mm", 1e3 * (patch.begin - y), 1e3 * begin,
                      1e3 * element);
       check.absolute(name + "the other side, mm", 1e3 * (patch.end - y), 1e3 * end, 1e3 * element);

@@ -8,7 +8,12 @@
 
 namespace tread
 {
-  // What of a scene does not make sense, by topic. All throw InputError, one line that names the parameters.
+  // What of a scene does not make sense. All throw InputError, one line that names the parameters.
+
+  /// What is wanted of it.
+  void check_sections(const Scene &scene, const SceneUse use);
+
+  // By topic.
 
   void check_motion(const Scene &scene);
   void check_peak_stress(const Scene &scene);
@@ -24,6 +29,8 @@ namespace tread
 
   // What other checks say of them.
 
+  /// Whether the measured head ends, at one side, before what is searched for contact.
+  bool has_narrow_head(const Scene &scene);
   /// The change of the running surface of a rail from a mesh file, for messages.
   std::string uneven_in_words(const Scene &scene);
   /// Of a law of friction that falls with slip: a memory that is too short to keep slip from oscillating by

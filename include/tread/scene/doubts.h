@@ -27,8 +27,10 @@ namespace tread
   double detail_along(const Scene &scene);
 
   /// Whether no wheel's patch comes to the defect, nor to any other like it, on all of the way that is
-  /// meshed; false where that is not sure. @pre scene.made_defect()
+  /// meshed; false where that is not sure. @pre scene.shapes().defect
   bool misses_defect(const Scene &scene);
+  /// Where the defect lies and how deep, and what the wheel is not round by, one line; empty: neither.
+  std::string defect_in_words(const Scene &scene);
 } // namespace tread
 
 #endif

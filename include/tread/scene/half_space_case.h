@@ -42,11 +42,14 @@ namespace tread
   /// Hertz's patch of a case with like curvatures along each axis, its true gap aside.
   reference::HertzEllipse hertz(const reference::RollingCase &c);
 
-  /// Hertz's patch of the scene's wheel and rail. @param normal_force N, > 0
-  reference::HertzEllipse hertz(const Scene &scene, double normal_force);
+  /// Lateral radius of the gap between the surfaces where they touch, m: that of the rail, or fitted over
+  /// 5 mm at both sides.
+  double lateral_radius(const Scene &scene);
+  /// Whether it is fitted: it is no number of the scene.
+  bool has_fitted_lateral_radius(const Scene &scene);
 
-  /// The same with the lateral radius over the patch that comes out, where it is no number of the scene; over
-  /// 5 mm where no size of the patch agrees with its own radius.
+  /// The patch of WheelStance::ellipse() with the lateral radius over the patch that comes out, where that is
+  /// fitted; over 5 mm where no size of the patch agrees with its own radius. @param normal_force N, > 0
   reference::HertzEllipse hertz_over_patch(const Scene &scene, double normal_force);
 
   /// Difference between the stretches of the rail's and the wheel's surface along x under the pressure alone,
@@ -80,9 +83,7 @@ namespace tread
   /// Write the first entries of every summary: forces, patch, creepage, and Hertz's values for comparison.
   /// @param method by which the answer was found
   /// Add the indices of damage, of several patches the largest. Those without a load are left out.
-  void summarise_damage(Summary                              &summary,
-                        const Scene                          &scene,
-                        const std::vector<DamageIndex::Load> &loads);
+  void summarise_damage(Summary &summary, const Scene &scene, const std::vector<DamageIndex::Load> &loads);
 
   void summarise(Summary             &summary,
                  const Scene         &scene,

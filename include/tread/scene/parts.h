@@ -37,8 +37,7 @@ namespace tread
   /// it touched at the start, m
   FineWindow fine_window(const Scene &scene, const unsigned int number, const double tread);
 
-  /// Rail, wheels and solid sleepers, in the order of their numbers; the materials are in the same order.
-  std::vector<Body>            make_bodies(const Scene &scene, const FineWindow &window = {});
+  /// In the order of the bodies' numbers.
   std::vector<ElasticMaterial> materials(const Scene &scene);
   std::vector<SolidSleeper>    solid_sleepers(const Scene &scene);
   SolidParameters              solid_parameters(const Scene &scene);

@@ -20,11 +20,24 @@ namespace tread
 {
   class Scene;
 
+  /// Contact axes of a patch in those of the mesh, relative to the wheelset's middle at x = 0: x, s along the
+  /// tangent plane, n normal to it into the wheel; s of the other wheel points to its own side.
+  struct ContactAxes
+  {
+    Vector3 origin;        ///< reference point of the patch, m
+    Vector3 along, normal; ///< directions of s and n
+
+    /// Along x, s and n: a vector of the mesh.
+    Vector3 turned(const Vector3 &v) const
+    {
+      return Vector3{v[0], dot(v, along), dot(v, normal), 0.};
+    }
+  };
+
   /// The wheel of a wheelset, or both wheels, in its position under the static load, as half-space theory
   /// finds it: where a mesh must be fine, and what a run is compared with.
   ///
-  /// The wheelset's middle is at the wheel's x. Contact axes of a patch: x, s along the tangent plane, n
-  /// normal to it into the wheel, origin at its reference point; s of the other wheel points to its own side.
+  /// The wheelset's middle is at the wheel's x.
   class PlacedWheel : public WheelStance
   {
   public:
@@ -34,6 +47,17 @@ namespace tread
     /// The same in another position.
     PlacedWheel(const Scene &scene, const WheelsetPosition &position, const WheelRolling &rolling);
 
+    /// One wheel in the track axes of its own side.
+    struct Side
+    {
+      WheelContact contact;
+      bool         is_mirrored;
+    };
+    /// The own wheel, then the other one where it is there.
+    const std::vector<Side> &sides() const
+    {
+      return solved_sides;
+    }
     /// Those of the own wheel first.
     const std::vector<WheelPatch> &patches() const
     {
@@ -45,7 +69,7 @@ namespace tread
     double rolling_radius() const override;
     double patch_y() const override
     {
-      return origin(main_patch())[1];
+      return axes(main_patch()).origin[1];
     }
     unsigned int      n_loads() const override;
     std::vector<Body> make_bodies(const FineWindow &) const override;
@@ -88,13 +112,10 @@ namespace tread
     /// wheelset's middle.
     unsigned int nearest_patch(const Vector3 place) const;
 
-    /// Middle of the wheelset with the wheel at x = 0, and the direction of the axle.
+    /// Middle of the wheelset with the wheel at x = 0.
     Vector3 middle() const;
-    Vector3 axle() const;
-    /// Reference point of a patch relative to the wheelset's middle at x = 0, and the directions of its axes.
-    Vector3        origin(const WheelPatch &patch) const;
-    static Vector3 along(const WheelPatch &patch);
-    static Vector3 normal(const WheelPatch &patch);
+    /// Of a patch of either wheel.
+    ContactAxes axes(const WheelPatch &patch) const;
 
     ContactNodeState in_contact_axes(const ContactNodeState &state, const double wheel_x) const override;
     /// Those nodes in contact axes that belong to a patch, their positions too, but for the wheel's x in
@@ -103,28 +124,15 @@ namespace tread
                                            const std::vector<ContactNodeState> &states,
                                            const double                         wheel_x) const;
 
-    /// Traction on the wheel over the pressure [-] in the half-space's answer, in axes of the mesh, at a
-    /// place relative to the wheelset's middle.
-    Vector3 traction_over_pressure(const Vector3 place) const;
-
-    /// The elements in contact of the half-space's answer, x from the wheelset's middle, tractions and slip
-    /// in contact axes.
-    std::vector<PatchNode> table_nodes() const;
-    std::vector<PatchNode> table_nodes(const WheelPatch &patch) const; ///< of one patch
-
     /// An ellipse of the main patch's length and width, at another vertical force in proportion (N).
     reference::HertzEllipse ellipse(const double vertical_force) const override;
 
     Place place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// @param start_x of the wheel in the reference configuration
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
-    /// Of the patch that is nearest.
-    Place              place_in_rail(const dealii::Point<3> &p) const;
     std::vector<Place> places_under(const dealii::Point<3> &p, const unsigned int body) const override;
-    double             depth_in_rail(const dealii::Point<3> &p) const override
-    {
-      return place_in_rail(p).below;
-    }
+    /// Of the patch that is nearest.
+    double depth_in_rail(const dealii::Point<3> &p) const override;
 
     std::vector<Path> paths() const override;
     Strip             strip(const unsigned int body, const double begin, const double end) const override;
@@ -138,34 +146,11 @@ namespace tread
     const WheelOnRail surfaces;
 
   private:
-    /// One wheel in the track axes of its own side.
-    struct Side
-    {
-      WheelContact contact;
-      bool         is_mirrored;
-    };
-    /// The own wheel, then the other one where it is there.
-    static std::vector<Side> solve(const Scene            &scene,
-                                   const WheelOnRail      &surfaces,
-                                   const WheelsetPosition &position,
-                                   const WheelRolling     &rolling);
-    static WheelContact      together(const std::vector<Side> &sides);
-    /// From the track axes of a side to those of the mesh.
-    std::function<dealii::Point<3>(const Vector3d &)> from_track(const bool is_mirrored) const;
-    /// A body from its piece at each side.
-    Body of_sides(const std::string &name, const std::function<Body(const Side &)> &make) const;
-    /// Blocks behind the running surfaces, finest at the patches.
-    Body rail_of(const Side &side) const;
-    Body rail_of_slices() const;
-    Body wheel_of(const Side &side) const;
-
-    /// How far a place is beside the path of a piece of slices (m).
-    double beside(const TouchedPiece &piece, const dealii::Point<3> &p) const;
     /// Of slices, where a place is in the piece whose path is nearest.
     Place place_in_slices(const dealii::Point<3> &p) const;
 
     const Scene      &scene;
-    std::vector<Side> sides;
+    std::vector<Side> solved_sides;
     /// Of the slices, by x.
     mutable std::map<double, std::shared_ptr<const std::vector<ProfileCurve>>> sections_at;
     WayOverSlices                                                              slices;
@@ -174,6 +159,15 @@ namespace tread
     /// Of all wheels, in the track axes of the own one.
     WheelContact contact;
   };
+
+  /// Traction on the wheel over the pressure [-] in the half-space's answer, in axes of the mesh, at a place
+  /// relative to the wheelset's middle (m).
+  Vector3 traction_over_pressure(const PlacedWheel &wheel, const Vector3 place);
+
+  /// The elements in contact of the half-space's answer, x from the wheelset's middle (m), tractions and slip
+  /// in contact axes.
+  std::vector<PatchNode> table_nodes(const PlacedWheel &wheel);
+  std::vector<PatchNode> table_nodes(const PlacedWheel &wheel, const WheelPatch &patch); ///< of one patch
 } // namespace tread
 
 #endif

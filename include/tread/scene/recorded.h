@@ -17,9 +17,6 @@ namespace tread
   /// Positions in the rail (reference configuration, m) whose cells are written to cells.csv. @throws
   /// InputError
   std::vector<dealii::Point<3>> recorded_cells(const Scene &scene);
-
-  /// Depth below the running surface of a point in the reference configuration, m.
-  double depth_in_rail(const Scene &scene, const dealii::Point<3> &p);
 } // namespace tread
 
 #endif

@@ -11,12 +11,9 @@ namespace tread
   /// The law of friction that the scene names, with its parameters. @throws InputError
   std::shared_ptr<const FrictionLaw> friction_law(const Scene &scene);
 
-  /// Of the friction coefficient across the rail, at a place of its surface in the reference configuration.
+  /// Factor of the friction coefficient across the rail over the patch of the static load by half-space
+  /// theory, weighted with its pressure: what friction carries over what it would with a factor of 1.
   /// @pre scene.contact.varies_across()
-  double factor_across(const Scene &scene, const Vector3 &place);
-
-  /// The same over the patch of the static load by half-space theory, weighted with its pressure: what
-  /// friction carries over what it would with a factor of 1.
   double mean_factor_across(const Scene &scene);
 
   /// Yield stress of the rail in shear, Pa; 0: not known.

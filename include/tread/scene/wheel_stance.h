@@ -4,6 +4,7 @@
 
 #include <tread/contact/contact_records.h>
 #include <tread/mesh/body.h>
+#include <tread/mesh/fine_zone.h>
 #include <tread/reference/hertz.h>
 #include <tread/scene/islands.h>
 #include <tread/track/wheel_hub.h>

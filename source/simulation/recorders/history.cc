@@ -193,7 +193,7 @@ namespace tread
         const std::string       name   = "cell_" + std::to_string(i + 1);
         report.summary.set(name + "_x_m", centre[0]);
         report.summary.set(name + "_y_m", centre[1]);
-        report.summary.set(name + "_depth_m", depth_in_rail(model.scene, centre));
+        report.summary.set(name + "_depth_m", model.scene.stance().depth_in_rail(centre));
       }
     report.summary.set("history_crc32", report.folder.history_checksum());
   }

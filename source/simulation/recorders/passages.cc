@@ -304,7 +304,7 @@ namespace tread
         return;
       }
     const dealii::Point<3> place = growth.place();
-    const double           depth = depth_in_rail(model.scene, place);
+    const double           depth = model.scene.stance().depth_in_rail(place);
     summary.set("net_plastic_strain_y_m", place[1]);
     summary.set("net_plastic_strain_depth_m", depth);
     report.lines +=

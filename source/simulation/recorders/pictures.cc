@@ -72,7 +72,7 @@ namespace tread
         const std::vector<ElasticMaterial> of_bodies = materials(model.scene);
         std::vector<RecoveredBody>         bodies{
           {rail_body, of_bodies[rail_body], [&scene = model.scene](const dealii::Point<3> &p) {
-             return depth_in_rail(scene, p);
+             return scene.stance().depth_in_rail(p);
            }}};
         for (const RollingWheel &wheel : model.wheels)
           bodies.push_back(

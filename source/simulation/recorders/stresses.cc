@@ -368,7 +368,7 @@ namespace tread
             dealii::Point<3> centre;
             for (const unsigned int i : model.mesh.cells[c].nodes)
               centre += model.mesh.nodes[i] / 8.;
-            place = std::max(place, {{centre[0], centre[1], depth_in_rail(model.scene, centre)}});
+            place = std::max(place, {{centre[0], centre[1], model.scene.stance().depth_in_rail(centre)}});
           }
       const auto places = dealii::Utilities::MPI::all_gather(model.comm, place);
       return *std::max_element(places.begin(), places.end());
