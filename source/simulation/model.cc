@@ -71,7 +71,7 @@ namespace tread
       check_added_mass();
     add_friction_that_varies();
     if (scene.motion.lateral_creepage != 0. || scene.motion.spin != 0.)
-      contact.impose_sliding([this](const Vector3 place, const unsigned int body) {
+      contact.prescribed.impose_sliding([this](const Vector3 place, const unsigned int body) {
         const auto wheel =
           std::find_if(wheels.begin(), wheels.end(), [&](const RollingWheel &w) { return w.body == body; });
         // The sliding is a velocity, at the middle of the step: there the hub will be half a step further.
@@ -169,7 +169,7 @@ namespace tread
   {
     const ContactSection &section = scene.contact;
     if (!section.friction_places.empty() || section.varies_across())
-      contact.vary_friction([this](const Vector3 place) {
+      contact.prescribed.vary_friction([this](const Vector3 place) {
         const Scene &of = this->scene;
         return of.contact.friction_factor(place[0]) *
                (of.contact.varies_across() ? factor_across(of, place) : 1.);
