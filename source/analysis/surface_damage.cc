@@ -282,7 +282,7 @@ namespace tread
     for (const Stored &stored : archive.records(of_rank))
       {
         if (stored.node >= nodes.size())
-          throw Archive::OtherLayout();
+          throw OtherStoredLayout();
         Node &node = nodes[stored.node];
         if (rank == 0)
           {

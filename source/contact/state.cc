@@ -68,7 +68,7 @@ namespace tread
     if (archive.restores())
       {
         if (!is_consistent(begin_of_strip))
-          throw Archive::OtherLayout();
+          throw OtherStoredLayout();
         make_room(begin_of_strip);
       }
     if (parameters.reproducible)
