@@ -61,7 +61,7 @@ namespace tread
       }
     if (scene.track.runs_along())
       {
-        rail_base = std::make_unique<RailBase>(rail_base_parameters(scene));
+        rail_base = std::make_unique<RailBase>(scene.track.co_running);
         dynamics.add<RailOnBase>(*rail_base, rail_body);
       }
     if (scene.track.is_beam())
