@@ -159,7 +159,7 @@ namespace tread
   void SurfaceDamage::vary_friction(std::function<double(double)> factor)
   {
     rises.assign(nodes.size(), 0.);
-    contact.vary_friction_with_node(
+    contact.prescribed.vary_friction_with_node(
       [this, factor = std::move(factor)](const unsigned int node) { return factor(rises[node]); });
   }
 
@@ -282,7 +282,7 @@ namespace tread
     for (const Stored &stored : archive.records(of_rank))
       {
         if (stored.node >= nodes.size())
-          throw Archive::OtherLayout();
+          throw OtherStoredLayout();
         Node &node = nodes[stored.node];
         if (rank == 0)
           {

@@ -20,6 +20,36 @@ namespace tread
   } // namespace
 
 
+  void StoredBytes::put(const void *values, const std::size_t n, const std::size_t size)
+  {
+    const Group group{n, size};
+    bytes.append(reinterpret_cast<const char *>(&group), sizeof group);
+    if (n * size > 0)
+      bytes.append(static_cast<const char *>(values), n * size);
+  }
+
+
+  std::size_t StoredBytes::get_number(const std::size_t size)
+  {
+    Group group;
+    get_values(&group, sizeof group);
+    const std::size_t least = size > 0 ? size : sizeof(Group);
+    if (group.size != size || group.number > (bytes.size() - next) / least)
+      throw OtherStoredLayout();
+    return group.number;
+  }
+
+
+  void StoredBytes::get_values(void *values, const std::size_t n_bytes)
+  {
+    if (bytes.size() - next < n_bytes)
+      throw OtherStoredLayout();
+    if (n_bytes > 0)
+      std::memcpy(values, bytes.data() + next, n_bytes);
+    next += n_bytes;
+  }
+
+
   Archive::Archive(const MPI_Comm comm)
     : comm(comm)
     , this_rank(dealii::Utilities::MPI::this_mpi_process(comm))
@@ -38,24 +68,24 @@ namespace tread
       {
         std::uint64_t size;
         if (all.size() - begin < sizeof size)
-          throw OtherLayout();
+          throw OtherStoredLayout();
         std::memcpy(&size, all.data() + begin, sizeof size);
         begin += sizeof size;
         if (all.size() - begin < size)
-          throw OtherLayout();
-        parts.push_back({all.substr(begin, size)});
+          throw OtherStoredLayout();
+        parts.emplace_back(all.substr(begin, size));
         begin += size;
       }
     if (parts.empty())
-      throw OtherLayout();
+      throw OtherStoredLayout();
     same_ranks = parts.size() == dealii::Utilities::MPI::n_mpi_processes(comm);
   }
 
 
   std::string Archive::stored() const
   {
-    const std::uint64_t size = parts[0].bytes.size();
-    return std::string(reinterpret_cast<const char *>(&size), sizeof size) + parts[0].bytes;
+    const std::uint64_t size = parts[0].all().size();
+    return std::string(reinterpret_cast<const char *>(&size), sizeof size) + parts[0].all();
   }
 
 
@@ -86,50 +116,8 @@ namespace tread
 
   bool Archive::found_all() const
   {
-    return on_all_ranks(!has_missed && std::all_of(parts.begin(), parts.end(), [](const Part &part) {
-      return part.next == part.bytes.size();
-    }));
-  }
-
-
-  void Archive::require_number(const std::size_t wanted, const std::size_t stored)
-  {
-    if (stored != wanted)
-      throw OtherLayout();
-  }
-
-
-  void Archive::put(const void *values, const std::size_t n, const std::size_t size)
-  {
-    const Group  group{n, size};
-    std::string &bytes = parts[0].bytes;
-    bytes.append(reinterpret_cast<const char *>(&group), sizeof group);
-    if (n * size > 0)
-      bytes.append(static_cast<const char *>(values), n * size);
-  }
-
-
-  std::size_t Archive::get_number(const unsigned int rank, const std::size_t size)
-  {
-    Group group;
-    get_values(rank, &group, sizeof group);
-    // No more values than there are bytes for are made room for.
-    const Part       &part  = parts[rank];
-    const std::size_t least = size > 0 ? size : sizeof(Group);
-    if (group.size != size || group.number > (part.bytes.size() - part.next) / least)
-      throw OtherLayout();
-    return group.number;
-  }
-
-
-  void Archive::get_values(const unsigned int rank, void *values, const std::size_t bytes)
-  {
-    Part &part = parts[rank];
-    if (part.bytes.size() - part.next < bytes)
-      throw OtherLayout();
-    if (bytes > 0)
-      std::memcpy(values, part.bytes.data() + part.next, bytes);
-    part.next += bytes;
+    return on_all_ranks(!has_missed && std::all_of(parts.begin(), parts.end(),
+                                                   [](const StoredBytes &part) { return part.is_read(); }));
   }
 
 
@@ -137,14 +125,14 @@ namespace tread
   {
     if (!is_restoring)
       {
-        write(value);
+        parts[0].write(value);
         return;
       }
     double sum = 0., of_rank = 0.;
     for (unsigned int rank = 0; rank < parts.size(); ++rank)
       {
         double stored;
-        read(stored, rank);
+        parts[rank].read(stored);
         sum += stored;
         if (rank == this_rank)
           of_rank = stored;
@@ -157,14 +145,14 @@ namespace tread
   {
     if (!is_restoring)
       {
-        write(value);
+        parts[0].write(value);
         return;
       }
     double most = 0., of_rank = 0.;
     for (unsigned int rank = 0; rank < parts.size(); ++rank)
       {
         double stored;
-        read(stored, rank);
+        parts[rank].read(stored);
         most = std::max(most, stored);
         if (rank == this_rank)
           of_rank = stored;

@@ -44,6 +44,7 @@ namespace tread
                    const ContactParameters           &parameters,
                    std::shared_ptr<const FrictionLaw> friction)
     : surfaces(mesh)
+    , prescribed(until_refresh)
     , comm(mesh.comm)
     , parameters(parameters)
     , friction(std::move(friction))
@@ -84,7 +85,7 @@ namespace tread
     surfaces.replicate(rows.data(), replicated);
     for (unsigned int i = 0; i < replicated.size(); ++i)
       inverse_mass[i] = replicated[i][0];
-    until_refresh.due = 0.;
+    until_refresh.make_due();
   }
 
 
@@ -105,7 +106,7 @@ namespace tread
   }
 
 
-  Contact::MemoryOfNodes Contact::memory_of_nodes()
+  MemoryOfNodes Contact::memory_of_nodes()
   {
     MemoryOfNodes memory;
     memory.impulse.assign(surfaces.nodes.size(), Vector3{});
@@ -135,7 +136,7 @@ namespace tread
       number[key_of(surfaces.nodes[i])] = i;
     const MemoryOfNodes of_other = before.memory_of_nodes();
     MemoryOfNodes       memory   = memory_of_nodes();
-    unconverged_steps            = before.unconverged_steps;
+    n_unconverged_steps          = before.n_unconverged_steps;
     for (const ContactProblem::Constraint &pair : before.problem.constraints)
       if (const auto node = number.find(key_of(before.surfaces.nodes[pair.slave])); node != number.end())
         {
@@ -300,9 +301,10 @@ namespace tread
     if (take_record)
       pairs.totals.assign(problem.constraints.size(), {});
     pairs.given_ratio.clear();
-    if (given.tractions)
+    if (prescribed.has_tractions())
       for (const ContactProblem::Constraint &constraint : problem.constraints)
-        pairs.given_ratio.push_back(given.tractions(surfaces.nodes[constraint.slave].reference));
+        pairs.given_ratio.push_back(
+          prescribed.traction_over_pressure(surfaces.nodes[constraint.slave].reference));
     renew_friction();
     make_room();
   }
@@ -311,11 +313,10 @@ namespace tread
   void Contact::renew_friction()
   {
     pair_friction.factor.clear();
-    if (given.friction_factor || given.friction_factor_of_node)
+    if (prescribed.varies_friction())
       for (const ContactProblem::Constraint &constraint : problem.constraints)
         pair_friction.factor.push_back(
-          (given.friction_factor ? given.friction_factor(surfaces.nodes[constraint.slave].reference) : 1.) *
-          (given.friction_factor_of_node ? given.friction_factor_of_node(constraint.slave) : 1.));
+          prescribed.friction_factor(surfaces.nodes[constraint.slave].reference, constraint.slave));
   }
 
 
@@ -412,7 +413,7 @@ namespace tread
       if (const int k = number_of_terms[entry.node]; k >= 0)
         ++effects.of_nodes[k].end;
     unsigned int n_terms = 0;
-    for (Effects::NodeTerms &node : effects.of_nodes)
+    for (EffectsOfPairs::NodeTerms &node : effects.of_nodes)
       {
         node.begin = n_terms;
         n_terms += std::exchange(node.end, n_terms);
@@ -562,10 +563,10 @@ namespace tread
         const ContactProblem::Constraint &constraint = problem.constraints[j];
         pairs.offset[j] = (dot(problem.combine(constraint, nodes.position), constraint.normal) / time_step) *
                           constraint.normal;
-        if (given.sliding)
+        if (prescribed.has_sliding())
           {
             const Vector3 sliding =
-              given.sliding(surfaces.nodes[constraint.slave].reference, pairs.master_of[j]);
+              prescribed.sliding(surfaces.nodes[constraint.slave].reference, pairs.master_of[j]);
             pairs.imposed[j] = sliding - dot(sliding, constraint.normal) * constraint.normal;
             pairs.offset[j] += pairs.imposed[j];
           }
@@ -603,12 +604,12 @@ namespace tread
     const bool unconverged = result.change > parameters.solver.tolerance;
     const auto found =
       static_cast<int>(strips.gather(pairs.impulse, (unconverged ? 2. : 0.) + (slid_enough ? 1. : 0.)));
-    unconverged_steps += found / 2;
+    n_unconverged_steps += found / 2;
     if (found % 2 > 0)
-      until_refresh.due = 0.; // also for pairs that did not touch at the last refresh
+      until_refresh.make_due(); // also for pairs that did not touch at the last refresh
 
     work = ContactWork();
-    for (const Effects::NodeTerms &of_node : effects.of_nodes)
+    for (const EffectsOfPairs::NodeTerms &of_node : effects.of_nodes)
       {
         Vector3      sum[2] = {}; // each addition waits for the one before it
         unsigned int k      = of_node.begin;

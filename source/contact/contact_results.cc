@@ -9,6 +9,22 @@
 
 namespace tread
 {
+  Vector3 ContactPairs::slip_of(const unsigned int j, const Vector3 &normal, const Vector3 u) const
+  {
+    return u - dot(u, normal) * normal + imposed[j] - before_entry[j];
+  }
+
+
+  double ContactPairs::tangential_loss(const unsigned int j,
+                                       const Vector3     &normal,
+                                       const double       along,
+                                       const Vector3      u) const
+  {
+    const Vector3 tangential = impulse[j] - along * normal;
+    return -dot(tangential, imposed[j]) - dot(tangential, u);
+  }
+
+
   bool Contact::counts_pairs() const
   {
     return !parameters.reproducible || dealii::Utilities::MPI::this_mpi_process(comm) == 0;
@@ -28,22 +44,9 @@ namespace tread
         const Vector3 u = problem.combine(constraint, nodes.mean_velocity);
         work.imposed -= dot(pairs.impulse[j] - normal * constraint.normal, pairs.imposed[j]);
         work.normal -= normal * dot(u, constraint.normal);
-        (pairs.slips[j] ? work.friction : work.adhesion) += tangential_loss(j, normal, u);
+        (pairs.slips[j] ? work.friction : work.adhesion) +=
+          pairs.tangential_loss(j, constraint.normal, normal, u);
       }
-  }
-
-
-  double Contact::tangential_loss(const unsigned int j, const double normal, const Vector3 u) const
-  {
-    const Vector3 tangential = pairs.impulse[j] - normal * problem.constraints[j].normal;
-    return -dot(tangential, pairs.imposed[j]) - dot(tangential, u);
-  }
-
-
-  Vector3 Contact::slip_of(const unsigned int j, const Vector3 u) const
-  {
-    const Vector3 &normal = problem.constraints[j].normal;
-    return u - dot(u, normal) * normal + pairs.imposed[j] - pairs.before_entry[j];
   }
 
 
@@ -58,9 +61,9 @@ namespace tread
         if (normal <= 0. || !pairs.slips[j])
           continue;
         const Vector3 u    = problem.combine(constraint, nodes.mean_velocity);
-        const double  slip = norm(slip_of(j, u));
+        const double  slip = norm(pairs.slip_of(j, constraint.normal, u));
         pairs.totals[j].duration += time_step;
-        pairs.totals[j].friction += tangential_loss(j, normal, u);
+        pairs.totals[j].friction += pairs.tangential_loss(j, constraint.normal, normal, u);
         pairs.totals[j].distance += time_step * slip;
         pairs.totals[j].sliding += normal * slip;
       }
@@ -100,7 +103,7 @@ namespace tread
   void Contact::visit_impulses(
     const std::function<void(unsigned int node, double normal, double tangential)> &visit) const
   {
-    for (const Effects::NodeTerms &node : effects.of_nodes)
+    for (const EffectsOfPairs::NodeTerms &node : effects.of_nodes)
       if (node.owned)
         {
           double  normal = 0.;
@@ -206,7 +209,7 @@ namespace tread
         state.normal      = constraint.normal;
         state.impulse     = pairs.impulse[j];
         const Vector3 u   = problem.combine(constraint, nodes.velocity);
-        state.slip        = slip_of(j, u);
+        state.slip        = pairs.slip_of(j, constraint.normal, u);
         state.area        = constraint.area;
         state.gap         = dot(problem.combine(constraint, nodes.position), constraint.normal);
         state.adhesion    = !pairs.slips[j];

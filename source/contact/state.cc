@@ -59,7 +59,7 @@ namespace tread
     archive.same(problem.constraints, problem.entries, involved, nodes.position, pairs.impulse,
                  pairs.previous_impulse, pairs.slid, corners_around, steps_since_normals, until_refresh.time,
                  until_refresh.due, until_refresh.closing_speed, until_refresh.travelled,
-                 until_refresh.allowed_travel, unconverged_steps, pair_friction.coefficient,
+                 until_refresh.allowed_travel, n_unconverged_steps, pair_friction.coefficient,
                  pair_friction.factor, near_contact, pairs.totals);
     archive.shares(work.friction, work.normal, work.adhesion, work.imposed);
     work.on_nodes.serialize(archive);
@@ -68,7 +68,7 @@ namespace tread
     if (archive.restores())
       {
         if (!is_consistent(begin_of_strip))
-          throw Archive::OtherLayout();
+          throw OtherStoredLayout();
         make_room(begin_of_strip);
       }
     if (parameters.reproducible)

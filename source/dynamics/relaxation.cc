@@ -72,7 +72,7 @@ namespace tread
         if (d.contact)
           {
             d.contact->set_friction(law);
-            d.contact->impose_sliding(std::move(sliding));
+            d.contact->prescribed.impose_sliding(std::move(sliding));
           }
       }
       Relaxation(const Relaxation &)            = delete;
@@ -196,7 +196,7 @@ namespace tread
       double                     keep = kept_at_first;
       double residual = 0., load = 0., first_residual = -1.; ///< N; negative: not measured yet
       std::shared_ptr<const FrictionLaw> law;                ///< of the motion to come
-      Contact::Sliding                   sliding;            ///< likewise
+      PrescribedContact::Sliding         sliding;            ///< likewise
     };
 
 
@@ -221,7 +221,7 @@ namespace tread
         {
           d.contact->set_inverse_masses(inverse);
           law     = d.contact->set_friction(std::make_shared<CoulombFriction>(0.));
-          sliding = d.contact->impose_sliding({}); // metres in a unit step
+          sliding = d.contact->prescribed.impose_sliding({}); // metres in a unit step
           refresh_contact();
         }
     }
@@ -580,7 +580,7 @@ namespace tread
     Contact *contact = moving.contact;
     state.set_damping_time(0.);
     // Sweeps on the way to equilibrium are no steps in time.
-    const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps() : 0;
+    const std::uint64_t unconverged_steps = contact ? contact->n_unconverged_steps : 0;
     Relaxation          relaxation(moving, tolerance);
     unsigned int        iteration = 1, last_refresh = 0, n_refreshes = 0;
     bool                soft_balance_due = false, soft_are_balanced = false; // at the last look
@@ -640,7 +640,7 @@ namespace tread
         part->balance();
       }
     if (contact)
-      contact->set_n_unconverged_steps(unconverged_steps);
+      contact->n_unconverged_steps = unconverged_steps;
     return iteration;
   }
 } // namespace tread

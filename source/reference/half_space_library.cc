@@ -136,12 +136,12 @@ namespace
     set_common(answer, result);
     if (order_of(problem) == 2)
       {
-        answer.max_pressure = result.hertz_pressure;
-        answer.area         = edges.area(result.grid());
+        answer.max_pressure = result.hertz.max_pressure;
+        answer.area         = edges.area(result.grid);
       }
     answer.frictional_work = result.power_balance;
-    answer.iterations      = static_cast<int>(result.tangential_iterations);
-    const Grid grid        = result.grid();
+    answer.iterations      = static_cast<int>(result.convergence.tangential_iterations);
+    const Grid grid        = result.grid;
     keep_fields(solver, grid, result);
   }
 

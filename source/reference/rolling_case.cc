@@ -314,10 +314,7 @@ namespace tread::reference
                             ContactSolution   &&contact)
     {
       RollingResult result;
-      result.n_x            = grid.n_x;
-      result.n_y            = grid.n_y;
-      result.element_size   = grid.dx;
-      result.element_size_y = grid.dy;
+      result.grid = grid;
       for (unsigned int j = 0; j < grid.n_y; ++j)
         for (unsigned int i = 0; i < grid.n_x; ++i)
           {
@@ -336,23 +333,17 @@ namespace tread::reference
           result.slip_x[e] *= c.speed;
           result.slip_y[e] *= c.speed;
         }
-      result.state                 = std::move(t.state);
-      result.normal_force          = n.force;
-      result.longitudinal_force    = t.longitudinal_force;
-      result.lateral_force         = t.lateral_force;
-      result.spin_moment           = t.spin_moment;
-      result.creepage              = t.longitudinal + 0.; // no negative zero
-      result.lateral_creepage      = t.lateral;
-      result.spin                  = t.spin;
-      result.approach              = n.approach;
-      result.hertz_pressure        = hertz.max_pressure;
-      result.hertz_semi_x          = hertz.semi_axis_x;
-      result.hertz_semi_y          = hertz.semi_axis_y;
-      result.normal_iterations     = n.iterations;
-      result.tangential_iterations = t.iterations;
-      result.linear_iterations     = t.linear_iterations;
-      result.normal_residual       = n.residual;
-      result.tangential_residual   = t.residual;
+      result.state              = std::move(t.state);
+      result.normal_force       = n.force;
+      result.longitudinal_force = t.longitudinal_force;
+      result.lateral_force      = t.lateral_force;
+      result.spin_moment        = t.spin_moment;
+      result.creepage           = t.longitudinal + 0.; // no negative zero
+      result.lateral_creepage   = t.lateral;
+      result.spin               = t.spin;
+      result.approach           = n.approach;
+      result.hertz              = hertz;
+      result.convergence        = {n.iterations, t.iterations, t.linear_iterations, n.residual, t.residual};
       return result;
     }
   } // namespace
@@ -396,7 +387,8 @@ namespace tread::reference
         result.semi_axis_x = edges.semi_axis_x;
         result.semi_axis_y = edges.semi_axis_y;
       }
-    result.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.convergence.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
 } // namespace tread::reference

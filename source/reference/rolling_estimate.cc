@@ -26,7 +26,7 @@ namespace tread::reference
         : c(c)
         , r(r)
         , edges(edges)
-        , grid(r.grid())
+        , grid(r.grid)
         , slip_to_shear(0.5 * combine(c.wheel, c.rail).hertz_modulus() / c.speed)
         , bound(r.pressure)
       {
@@ -39,7 +39,7 @@ namespace tread::reference
         Measures m;
         m.area = edges.area(grid);
         m.max_pressure =
-          !c.gap && combine(c.wheel, c.rail).coupling == 0. ? r.hertz_pressure : peak(r.pressure);
+          !c.gap && combine(c.wheel, c.rail).coupling == 0. ? r.hertz.max_pressure : peak(r.pressure);
         double adhesion = 0.;
         for (unsigned int j = 0; j < grid.n_y; ++j)
           if (edges.lead[j] > edges.trail[j])
@@ -251,7 +251,7 @@ namespace tread::reference
       estimate.uncertainty = std::max(sure * std::abs(added), least_under_spin * std::abs(estimate.value));
     };
     set(result.max_pressure, f.max_pressure, g.max_pressure);
-    if (f.max_pressure == fine.hertz_pressure)
+    if (f.max_pressure == fine.hertz.max_pressure)
       result.max_pressure.uncertainty = 0.; // exact
     set_limit(result.creepage, fine.creepage, coarse.creepage);
     set_limit(result.longitudinal_force, fine.longitudinal_force, coarse.longitudinal_force);
@@ -283,16 +283,16 @@ namespace tread::reference
     for (std::size_t e = 0; e < fine.pressure.size(); ++e)
       {
         const double shear = std::hypot(fine.shear_x[e], fine.shear_y[e]),
-                     limit =
-                       rolling_case.friction_bound(fine.grid().x(e % fine.grid().n_x),
-                                                   fine.grid().y(e / fine.grid().n_x), fine.pressure[e]);
+                     limit = rolling_case.friction_bound(fine.grid.x(e % fine.grid.n_x),
+                                                         fine.grid.y(e / fine.grid.n_x), fine.pressure[e]);
         if (shear > limit)
           {
             fine.shear_x[e] *= limit / shear;
             fine.shear_y[e] *= limit / shear;
           }
       }
-    fine.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    fine.convergence.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
 

@@ -52,14 +52,14 @@ namespace tread::reference
     // are large at all edges: with all that Hertz's ellipse touches its stiffness would be 3 % too high.
     Edges               edges;
     const RollingResult normal = solve_rolling(pressed, 1, edges);
-    const Grid          grid   = normal.grid();
+    const Grid          grid   = normal.grid;
 
     if (!c.gap)
-      edges = ellipse_edges(grid, normal.hertz_semi_x, normal.hertz_semi_y);
+      edges = ellipse_edges(grid, normal.hertz.semi_axis_x, normal.hertz.semi_axis_y);
 
     TransientResult result;
-    result.n_x      = normal.n_x;
-    result.n_y      = normal.n_y;
+    result.n_x      = grid.n_x;
+    result.n_y      = grid.n_y;
     result.x        = normal.x;
     result.y        = normal.y;
     result.pressure = normal.pressure;

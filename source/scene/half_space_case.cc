@@ -264,7 +264,7 @@ namespace tread
     for (std::size_t i = 0; i < half_space.x.size(); ++i)
       if (half_space.state[i] != reference::ElementState::exterior)
         nodes.push_back({Vector3{half_space.x[i], half_space.y[i] + y_first_contact, 0., 0.},
-                         half_space.element_size * half_space.element_size_y,
+                         half_space.grid.dx * half_space.grid.dy,
                          half_space.pressure[i],
                          {half_space.shear_x[i], half_space.shear_y[i]},
                          {half_space.slip_x[i], half_space.slip_y[i]},
@@ -275,16 +275,16 @@ namespace tread
 
   Vector3 traction_over_pressure(const reference::RollingResult &half_space, const double x, const double y)
   {
-    const double       dx = half_space.element_size, dy = half_space.element_size_y;
+    const double       dx = half_space.grid.dx, dy = half_space.grid.dy;
     const unsigned int n_steps = std::ceil(std::max(std::abs(x) / dx, std::abs(y) / dy));
     for (unsigned int step = n_steps + 1; step-- > 0;)
       {
         const double share  = n_steps > 0 ? double(step) / n_steps : 0.;
         const double column = std::round((share * x - half_space.x.front()) / dx),
                      row    = std::round((share * y - half_space.y.front()) / dy);
-        if (column < 0. || column >= half_space.n_x || row < 0. || row >= half_space.n_y)
+        if (column < 0. || column >= half_space.grid.n_x || row < 0. || row >= half_space.grid.n_y)
           continue;
-        const std::size_t i = half_space.n_x * std::size_t(row) + std::size_t(column);
+        const std::size_t i = half_space.grid.n_x * std::size_t(row) + std::size_t(column);
         if (half_space.pressure[i] > 0.)
           return Vector3{half_space.shear_x[i], half_space.shear_y[i], 0., 0.} *
                  (1. / half_space.pressure[i]);

@@ -110,11 +110,11 @@ namespace tread
     hub.place(Vector3{scene.path_begin(), 0., 0., 0.} + middle(), contact.position.yaw,
               contact.position.roll);
     if (scene.guidance.kind == Guidance::file)
-      hub.follow([this](const double time) { return scene.across(time); });
+      hub.guidance.follow([this](const double time) { return scene.across(time); });
     else if (scene.guidance.kind == Guidance::springs)
-      hub.release(scene.guidance.springs);
+      hub.guidance.release(scene.guidance.springs, hub.motion.yaw);
     if (scene.rail.is_sliced())
-      hub.ride([this](const double x) { return slices.curvature(x); });
+      hub.settling.ride([this](const double x) { return slices.curvature(x); });
     hub.motion.angular_velocity = given_angular_velocity(scene);
   }
 

@@ -268,14 +268,6 @@ namespace tread
   }
 
 
-  RailBaseParameters rail_base_parameters(const Scene &scene)
-  {
-    return {scene.track.co_running_mass,
-            {scene.track.vertical_stiffness, scene.track.vertical_damping},
-            {scene.track.lateral_stiffness, scene.track.lateral_damping}};
-  }
-
-
   AbsorbingEnds absorbing_ends(const Scene &scene)
   {
     return {scene.rail_begin(), scene.rail_end(),

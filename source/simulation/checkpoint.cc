@@ -312,7 +312,7 @@ namespace tread
       {
         throw InputError(damaged());
       }
-    catch (const Archive::OtherLayout &)
+    catch (const OtherStoredLayout &)
       {
         throw InputError("--resume: '" + folder.path(last) + "' was not written by this version of tread");
       }

@@ -81,7 +81,7 @@ namespace tread
 
   Simulation::Rolled Simulation::add_size(Summary &summary, const double normal_force) const
   {
-    summary.set("contact_unconverged_steps", model.contact.n_unconverged_steps());
+    summary.set("contact_unconverged_steps", model.contact.n_unconverged_steps);
     summary.set("cells", model.mesh.n_global_cells);
     const auto n_plastic_cells = dealii::Utilities::MPI::sum(model.solid.plastic().n_cells(), comm);
     summary.set("plastic_cells", n_plastic_cells);
@@ -149,7 +149,7 @@ namespace tread
     if (solution.average().n_steps() > 0)
       quality.slip_chatter = solution.average().slip_chatter();
     const std::uint64_t n_steps = model.dynamics.state.n_steps;
-    quality.contact_unconverged = n_steps > 0 ? double(model.contact.n_unconverged_steps()) / n_steps : 0.;
+    quality.contact_unconverged = n_steps > 0 ? double(model.contact.n_unconverged_steps) / n_steps : 0.;
     return quality;
   }
 

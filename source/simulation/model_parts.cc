@@ -86,7 +86,7 @@ namespace tread
     {
       if (!model.scene.track.runs_along())
         return;
-      model.rail_base = std::make_unique<RailBase>(rail_base_parameters(model.scene));
+      model.rail_base = std::make_unique<RailBase>(model.scene.track.co_running);
       model.dynamics.add<RailOnBase>(*model.rail_base, rail_body);
     }
 
@@ -101,7 +101,7 @@ namespace tread
       const Scene          &scene   = model.scene;
       const ContactSection &section = scene.contact;
       if (!section.friction_places.empty() || section.varies_across())
-        model.contact.vary_friction([&scene](const Vector3 place) {
+        model.contact.prescribed.vary_friction([&scene](const Vector3 place) {
           return scene.contact.friction_factor(place[0]) *
                  (scene.contact.varies_across() ? scene.stance().factor_across(place) : 1.);
         });
@@ -116,7 +116,7 @@ namespace tread
       const MotionSection &motion = model.scene.motion;
       if (motion.lateral_creepage == 0. && motion.spin == 0.)
         return;
-      model.contact.impose_sliding([&model](const Vector3 place, const unsigned int body) {
+      model.contact.prescribed.impose_sliding([&model](const Vector3 place, const unsigned int body) {
         const MotionSection &motion = model.scene.motion;
         const auto           wheel  = std::find_if(model.wheels.begin(), model.wheels.end(),
                                                    [&](const RollingWheel &w) { return w.body == body; });

@@ -87,17 +87,18 @@ namespace tread
           free_rolling_known = true;
           // On a track those to the side, of spin, are left to build up: an iteration takes long to bend the
           // rail that way.
-          model.contact.give_tractions([tractions, to_the_side = !model.supports, this](const Vector3 place) {
-            const auto distance = [&](const RollingWheel &wheel) {
-              return std::abs(place[0] - wheel.hub.motion.x);
-            };
-            const RollingWheel &nearest = *std::min_element(
-              model.wheels.begin(), model.wheels.end(),
-              [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
-            const Vector3 ratio =
-              tractions[nearest.number](place - Vector3{nearest.hub.motion.x, 0., 0., 0.});
-            return to_the_side ? ratio : Vector3{ratio[0], 0., 0., 0.};
-          });
+          model.contact.prescribed.give_tractions(
+            [tractions, to_the_side = !model.supports, this](const Vector3 place) {
+              const auto distance = [&](const RollingWheel &wheel) {
+                return std::abs(place[0] - wheel.hub.motion.x);
+              };
+              const RollingWheel &nearest = *std::min_element(
+                model.wheels.begin(), model.wheels.end(),
+                [&](const RollingWheel &a, const RollingWheel &b) { return distance(a) < distance(b); });
+              const Vector3 ratio =
+                tractions[nearest.number](place - Vector3{nearest.hub.motion.x, 0., 0., 0.});
+              return to_the_side ? ratio : Vector3{ratio[0], 0., 0., 0.};
+            });
         }
       time_left.add(progress.seconds(), share);
       if (progress.due())
@@ -124,7 +125,7 @@ namespace tread
       format("start: equilibrium after %.0f iterations, %.1f s; normal force %s kN; free rolling at %.2e",
              relaxation_iterations, relaxation_seconds, forces.c_str(), model.wheels.front().free_creepage));
 
-    model.contact.give_tractions({});
+    model.contact.prescribed.give_tractions({});
     for (RollingWheel &wheel : model.wheels)
       {
         wheel.hub.drive             = Drive::creepage;

@@ -53,7 +53,7 @@ namespace tread
     public:
       BodyStress(const reference::RollingResult &answer, const Body body, const double poisson)
         : answer(answer)
-        , grid(answer.grid())
+        , grid(answer.grid)
         , body(body)
         , poisson(poisson)
       {
@@ -111,8 +111,8 @@ namespace tread
     std::string depth_lines(const Scene &scene, Summary &summary)
     {
       const reference::RollingResult answer = reference::solve_rolling(half_space_case(scene));
-      const double                   a = answer.hertz_semi_x, smaller = std::min(a, answer.hertz_semi_y);
-      std::ostringstream             table;
+      const double       a = answer.hertz.semi_axis_x, smaller = std::min(a, answer.hertz.semi_axis_y);
+      std::ostringstream table;
       table
         << "body,line,x_mm,y_mm,depth_mm,von_mises_MPa,mean_stress_MPa,xx_MPa,yy_MPa,zz_MPa,xy_MPa,xz_MPa,"
            "yz_MPa\n"
@@ -128,7 +128,7 @@ namespace tread
           summary.set(name + "_max_von_mises_x_m", worst[0]);
           summary.show(name + "_max_von_mises_depth_m", "its depth, " + name + ", mm", 1e3, worst[2]);
           // On the surface stresses are singular on element edges, so lines go through element centres.
-          const double        nearest = std::round(worst[0] / answer.element_size) * answer.element_size;
+          const double        nearest = std::round(worst[0] / answer.grid.dx) * answer.grid.dx;
           std::vector<double> depths;
           for (unsigned int k = 0; k <= 60; ++k)
             depths.push_back(smaller * (k <= 40 ? 0.025 * k : 1. + 0.1 * (k - 40)));
@@ -165,7 +165,7 @@ namespace tread
                   return p.von_mises() < q.von_mises();
                 });
               around = points[most - stresses.begin()][0];
-              reach  = two_and_a_half * answer.element_size;
+              reach  = two_and_a_half * answer.grid.dx;
               add_row("largest", points[most - stresses.begin()], *most);
             }
         }
@@ -258,14 +258,14 @@ namespace tread
       summary.set(std::string(name) + "_half_space_uncertainty", value.uncertainty);
     const std::string subsurface = depth_lines(scene, summary);
     summary.set("approach_m", half_space.approach);
-    summary.set("element_size_m", half_space.element_size);
+    summary.set("element_size_m", half_space.grid.dx);
     summary.set("elements", std::count_if(half_space.state.begin(), half_space.state.end(), [](const auto s) {
                   return s != reference::ElementState::exterior;
                 }));
-    summary.set("normal_iterations", half_space.normal_iterations);
-    summary.set("normal_residual", half_space.normal_residual);
-    summary.set("tangential_iterations", half_space.tangential_iterations);
-    summary.set("tangential_residual", half_space.tangential_residual);
+    summary.set("normal_iterations", half_space.convergence.normal_iterations);
+    summary.set("normal_residual", half_space.convergence.normal_residual);
+    summary.set("tangential_iterations", half_space.convergence.tangential_iterations);
+    summary.set("tangential_residual", half_space.convergence.tangential_residual);
     const MeasuredProfiles   profiles(scene);
     std::vector<std::string> warnings = scene.unused_parameters();
     for (const std::vector<std::string> &more : {implausible_values(scene), profiles.warnings()})
@@ -286,7 +286,7 @@ namespace tread
     write_steady_damage(scene, {{nodes, scene.motion.speed * (1. + answer.creepage)}}, folder, summary,
                         warnings);
     summary.set("warnings", warnings);
-    folder.write_surface(nodes, half_space.element_size);
+    folder.write_surface(nodes, half_space.grid.dx);
     folder.join_pictures();
     folder.write("subsurface.csv", subsurface);
     profiles.write(folder);
@@ -301,7 +301,7 @@ namespace tread
     std::snprintf(text, sizeof text,
                   "half-space solver: elements of %.3g mm, normal force %.2f kN, approach %.2f um, traction "
                   "coefficient %.4f\n",
-                  1e3 * half_space.element_size, 1e-3 * half_space.normal_force, 1e6 * half_space.approach,
+                  1e3 * half_space.grid.dx, 1e-3 * half_space.normal_force, 1e6 * half_space.approach,
                   half_space.traction_coefficient);
     progress.say(text);
     for (const std::string &line : profiles.smoothing())

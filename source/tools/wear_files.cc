@@ -503,7 +503,7 @@ namespace tread
           Archive archive(MPI_COMM_SELF, bytes);
           wear.serialize(archive);
         }
-      catch (const Archive::OtherLayout &)
+      catch (const OtherStoredLayout &)
         {
           throw InputError("--resume: '" + path + "' has another layout");
         }

@@ -37,11 +37,11 @@ namespace base_archive
   /// What restoring says.
   std::string answer(const std::string &bytes, State &state)
   {
-    return tests::complaint<Archive::OtherLayout>([&] {
+    return tests::complaint<OtherStoredLayout>([&] {
       Archive archive(MPI_COMM_SELF, bytes);
       state.serialize(archive);
       if (!archive.found_all())
-        throw Archive::OtherLayout();
+        throw OtherStoredLayout();
     });
   }
 

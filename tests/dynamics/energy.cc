@@ -70,9 +70,9 @@ namespace dynamics_energy
       return {.15e-3 * wave, 1e-3 * wave, .5e-3 * wave, 60. + wave};
     };
     if (guidance == Guidance::file)
-      hub.follow(waves);
+      hub.guidance.follow(waves);
     else if (guidance == Guidance::springs)
-      hub.release({3e7, 1e4, 2e7, 1e3, 3e5, 5e4});
+      hub.guidance.release({3e7, 1e4, 2e7, 1e3, 3e5, 5e4}, hub.motion.yaw);
     const CarriesBody &carrier = dynamics.add<WheelOnHub>(hub, 0, 60.);
     if (solid.may_add_mass())
       dynamics.add<AddedMassOnWheel>(carrier);
@@ -212,7 +212,7 @@ namespace dynamics_energy
     WheelHub hub(parameters);
     hub.place(Vector3{}, .02, .01);
     const GuidanceSprings springs{4e6, 5e3, 3e6, 2e3, 0., 0.};
-    hub.release(springs);
+    hub.guidance.release(springs, hub.motion.yaw);
     hub.motion.velocity_y = .1;
     hub.motion.yaw_rate   = .3;
     const double step = 2e-7, end = 0.05;

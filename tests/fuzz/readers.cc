@@ -250,7 +250,7 @@ namespace tread::fuzz
           state.serialize(archive);
           require(archive.found_all(), "something is left over");
         }
-      catch (const Archive::OtherLayout &error)
+      catch (const OtherStoredLayout &error)
         {
           throw InputError(error.what());
         }

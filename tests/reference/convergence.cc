@@ -159,8 +159,8 @@ namespace reference_convergence
         for (std::size_t e = 0; e < fields.pressure.size(); ++e)
           excess =
             std::max(excess, std::hypot(fields.shear_x[e], fields.shear_y[e]) -
-                               c.friction_bound(fields.grid().x(e % fields.grid().n_x),
-                                                fields.grid().y(e / fields.grid().n_x), fields.pressure[e]));
+                               c.friction_bound(fields.grid.x(e % fields.grid.n_x),
+                                                fields.grid.y(e / fields.grid.n_x), fields.pressure[e]));
         check.below("shear beyond the friction bound [MPa]", 1e-6 * excess, 1e-9);
         if (c.prescribe_force)
           compare("creepage [1e-3]", &RollingEstimate::creepage, 1e3, one.of_force);
@@ -203,12 +203,12 @@ namespace reference_convergence
     };
     const RollingEstimate e = estimate_rolling(c);
     // Hertz's patch, found from the gap
-    check.relative("maximum pressure [MPa]", 1e-6 * e.max_pressure.value, 1e-6 * e.fields.hertz_pressure,
+    check.relative("maximum pressure [MPa]", 1e-6 * e.max_pressure.value, 1e-6 * e.fields.hertz.max_pressure,
                    3e-4);
-    check.absolute("  within its uncertainty", 1e-6 * e.max_pressure.value, 1e-6 * e.fields.hertz_pressure,
-                   1e-6 * e.max_pressure.uncertainty);
-    check.relative("area [mm2]", 1e6 * e.area.value, 1e6 * pi * e.fields.hertz_semi_x * e.fields.hertz_semi_y,
-                   5e-3);
+    check.absolute("  within its uncertainty", 1e-6 * e.max_pressure.value,
+                   1e-6 * e.fields.hertz.max_pressure, 1e-6 * e.max_pressure.uncertainty);
+    check.relative("area [mm2]", 1e6 * e.area.value,
+                   1e6 * pi * e.fields.hertz.semi_axis_x * e.fields.hertz.semi_axis_y, 5e-3);
     check.absolute("shear, slip, adhesion, power",
                    e.max_shear.value + e.adhesion_share.value + std::abs(e.frictional_power.value) * 1e-3, 0.,
                    1e-6);

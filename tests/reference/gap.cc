@@ -191,10 +191,11 @@ namespace reference_gap
     const std::string &name   = on_head.name;
     bool               border = false;
     for (std::size_t e = 0; e < grown.x.size(); ++e)
-      border = border || (grown.pressure[e] > 0. && (e % grown.n_x == 0 || e % grown.n_x == grown.n_x - 1 ||
-                                                     e / grown.n_x == 0 || e / grown.n_x == grown.n_y - 1));
+      border = border || (grown.pressure[e] > 0. &&
+                          (e % grown.grid.n_x == 0 || e % grown.grid.n_x == grown.grid.n_x - 1 ||
+                           e / grown.grid.n_x == 0 || e / grown.grid.n_x == grown.grid.n_y - 1));
     const double first_width = 2. * on_head.side.semi_axis_y + 4. * on_head.grid.dy,
-                 width       = grown.n_y * on_head.grid.dy;
+                 width       = grown.grid.n_y * on_head.grid.dy;
     std::printf("    %sfirst guess %.1f mm wide, in the end %.1f mm\n", name.c_str(), first_width * 1e3,
                 width * 1e3);
     check.that(name + "narrow first grid: holds the patch in the end", !border);
@@ -352,7 +353,7 @@ namespace reference_gap
     check.below("bodies exchanged: same pressure, over p0", pressure / r.max_pressure, 1e-5);
     check.relative("force [kN]", r.normal_force * 1e-3, 2., 1e-9);
     // shear changes the pressure by about f K, here below 1 %
-    check.relative("p_max against Hertz [MPa]", r.max_pressure * 1e-6, r.hertz_pressure * 1e-6, 0.02);
+    check.relative("p_max against Hertz [MPa]", r.max_pressure * 1e-6, r.hertz.max_pressure * 1e-6, 0.02);
   }
 
   /// In a plane of its own a patch dissipates what it does as an ellipse; where bodies are unlike, the moment
@@ -372,7 +373,7 @@ namespace reference_gap
 
     PlanarCase planar;
     static_cast<Friction &>(planar) = c;
-    planar.grid                     = r.grid();
+    planar.grid                     = r.grid;
     planar.gap                      = [&](const double x, const double y) {
       return c.curvature_x * x * x + c.curvature_y * y * y;
     };
@@ -578,8 +579,8 @@ namespace reference_gap
         const auto result = solve_rolling(c);
         bool       border = false;
         for (std::size_t e = 0; e < result.x.size(); ++e)
-          if (e % result.n_x == 0 || e % result.n_x == result.n_x - 1 || e / result.n_x == 0 ||
-              e / result.n_x == result.n_y - 1)
+          if (e % result.grid.n_x == 0 || e % result.grid.n_x == result.grid.n_x - 1 ||
+              e / result.grid.n_x == 0 || e / result.grid.n_x == result.grid.n_y - 1)
             border = border || result.pressure[e] > 0.;
         check.that("the grid holds the patch", !border);
       }
@@ -597,7 +598,7 @@ namespace reference_gap
         std::snprintf(name, sizeof name, "patch %+.0f, %+.0f mm beside: largest pressure, MPa", 1e3 * dx,
                       1e3 * dy);
         check.relative(name, 1e-6 * *std::max_element(result.pressure.begin(), result.pressure.end()),
-                       1e-6 * result.hertz_pressure, 0.01);
+                       1e-6 * result.hertz.max_pressure, 0.01);
       }
 
     // creepage for a traction: positive for driving, odd in the force

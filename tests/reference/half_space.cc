@@ -102,16 +102,17 @@ namespace reference_half_space
             check.relative(name + "frictional power [W]", r.frictional_power,
                            number(row, "frictional_power_W"), 1e-4);
           }
-        check.below(name + "residual of the normal problem", r.normal_residual, 1e-8);
-        check.below(name + "residual of the tangential problem", r.tangential_residual, 1e-6);
+        check.below(name + "residual of the normal problem", r.convergence.normal_residual, 1e-8);
+        check.below(name + "residual of the tangential problem", r.convergence.tangential_residual, 1e-6);
         std::printf(
-          "    %u x %u elements: %u conjugate gradients, %u Newton steps, %u Krylov steps, %.4f s\n", r.n_x,
-          r.n_y, r.normal_iterations, r.tangential_iterations, r.linear_iterations, r.solve_seconds);
+          "    %u x %u elements: %u conjugate gradients, %u Newton steps, %u Krylov steps, %.4f s\n",
+          r.grid.n_x, r.grid.n_y, r.convergence.normal_iterations, r.convergence.tangential_iterations,
+          r.convergence.linear_iterations, r.convergence.seconds);
         // Newton steps do not grow with the grid (seen: 3 to 5), Krylov steps hardly (10 to 20 a Newton step,
         // where a preconditioner that does not know the leading edge takes 90 at 0.1 mm); the smallest grids
         // have no preconditioner.
-        check.that(name + "at most 8 Newton steps", r.tangential_iterations <= 8);
-        check.that(name + "Krylov steps", r.linear_iterations <= (r.n_x > 40 ? 100 : 200));
+        check.that(name + "at most 8 Newton steps", r.convergence.tangential_iterations <= 8);
+        check.that(name + "Krylov steps", r.convergence.linear_iterations <= (r.grid.n_x > 40 ? 100 : 200));
       }
   }
 
@@ -130,11 +131,9 @@ namespace reference_half_space
         unsigned int states = 0, found = 0;
         for (const Vector3 &row : rows)
           {
-            const int i =
-              static_cast<int>(std::lround((number(row, "x_mm") * 1e-3 - r.x[0]) / r.element_size));
-            const int j =
-              static_cast<int>(std::lround((number(row, "y_mm") * 1e-3 - r.y[0]) / r.element_size));
-            const std::size_t e = static_cast<std::size_t>(j) * r.n_x + i;
+            const int i = static_cast<int>(std::lround((number(row, "x_mm") * 1e-3 - r.x[0]) / r.grid.dx));
+            const int j = static_cast<int>(std::lround((number(row, "y_mm") * 1e-3 - r.y[0]) / r.grid.dx));
+            const std::size_t e = static_cast<std::size_t>(j) * r.grid.n_x + i;
             found += r.state[e] != ElementState::exterior ? 1 : 0;
             pressure += std::pow(r.pressure[e] * 1e-6 - number(row, "pressure_MPa"), 2);
             shear += std::pow(r.shear_x[e] * 1e-6 - number(row, "shear_x_" + key + "_MPa"), 2) +
@@ -205,9 +204,9 @@ namespace reference_half_space
                  limit_balance = 2. * r[2].power_balance - r[1].power_balance;
     check.relative("power in the limit: dissipation against balance [W]", limit_power, limit_balance, 0.003);
     check.relative("p_max at 0.1 mm against Hertz [MPa]", r[2].max_pressure * 1e-6,
-                   r[2].hertz_pressure * 1e-6, 1e-4);
+                   r[2].hertz.max_pressure * 1e-6, 1e-4);
     check.relative("area at 0.1 mm against Hertz [mm^2]", r[2].area * 1e6,
-                   M_PI * r[2].hertz_semi_x * r[2].hertz_semi_y * 1e6, 0.006);
+                   M_PI * r[2].hertz.semi_axis_x * r[2].hertz.semi_axis_y * 1e6, 0.006);
   }
 
   void power_of_unlike_bodies(tread::tests::Check &check)
@@ -240,7 +239,7 @@ namespace reference_half_space
         sliding.creepage        = -10.;
         const RollingResult r =
           name == "full_slip" ? solve_rolling(sliding) : solved(name == "mu030" ? 0.3 : 0., 0.1);
-        const Grid grid = r.grid();
+        const Grid grid = r.grid;
 
         double worst_below = 0., worst_surface = 0., worst_component = 0., maximum = 0., maximum_ours = 0.;
         for (const Body body : {Body::wheel, Body::rail})
@@ -284,10 +283,10 @@ namespace reference_half_space
     c.curvature_x = c.curvature_y           = 1. / 0.7;
     c.element_size                          = 1e-4;
     const RollingResult                r    = solve_rolling(c);
-    const Grid                         grid = r.grid();
+    const Grid                         grid = r.grid;
     std::vector<std::array<double, 3>> points;
     for (double z = 0.2; z < 0.9; z += 0.005)
-      points.push_back({0., 0., z * r.hertz_semi_x});
+      points.push_back({0., 0., z * r.hertz.semi_axis_x});
     const std::vector<Stress> s =
       subsurface_stress(grid, 0.3, r.pressure, r.shear_x, r.shear_y, Body::rail, points);
     std::size_t largest = 0;
@@ -295,12 +294,12 @@ namespace reference_half_space
       if (s[k].von_mises() > s[largest].von_mises())
         largest = k;
     // closed form: 0.620 p0 at 0.481 a; steps of 0.005 a
-    check.absolute("von Mises maximum over p0", s[largest].von_mises() / r.hertz_pressure, 0.620, 0.001);
-    check.absolute("its depth over a", points[largest][2] / r.hertz_semi_x, 0.481, 0.006);
+    check.absolute("von Mises maximum over p0", s[largest].von_mises() / r.hertz.max_pressure, 0.620, 0.001);
+    check.absolute("its depth over a", points[largest][2] / r.hertz.semi_axis_x, 0.481, 0.006);
 
     // Shear across the track: turned by a right angle the stress is that of shear along it, in both bodies.
     const std::vector<double> shear(grid.size(), 1e8), none(grid.size(), 0.);
-    const double              u = 0.3 * c.element_size, depth = 2. * c.element_size, a = r.hertz_semi_x;
+    const double              u = 0.3 * c.element_size, depth = 2. * c.element_size, a = r.hertz.semi_axis_x;
     for (const Body body : {Body::wheel, Body::rail})
       {
         const std::string name = body == Body::wheel ? "wheel: " : "rail: ";

@@ -91,16 +91,16 @@ TREAD_TEST(reference_slip_friction)(tread::tests::Check &check, const tread::tes
     };
     const RollingResult sliding = solve_rolling(c);
     check.relative("falls with pressure, sliding", -sliding.traction_coefficient,
-                   0.33 * (1. - 0.75 * sliding.hertz_pressure / p_1), 1e-3);
+                   0.33 * (1. - 0.75 * sliding.hertz.max_pressure / p_1), 1e-3);
     c.creepage                  = 0.0016;
     const RollingResult rolling = solve_rolling(c);
     double              worst   = 0.;
     for (std::size_t e = 0; e < rolling.pressure.size(); ++e)
       worst = std::max(worst, std::hypot(rolling.shear_x[e], rolling.shear_y[e]) -
                                 c.friction_bound(0., 0., rolling.pressure[e]));
-    check.absolute("falls with pressure, rolling: shear beyond the bound", worst / rolling.hertz_pressure, 0.,
-                   1e-9);
-    c.pressure_factor = [p_2 = 0.6 * rolling.hertz_pressure](const double p) {
+    check.absolute("falls with pressure, rolling: shear beyond the bound", worst / rolling.hertz.max_pressure,
+                   0., 1e-9);
+    c.pressure_factor = [p_2 = 0.6 * rolling.hertz.max_pressure](const double p) {
       return p < p_2 ? 1. : 0.;
     };
     const RollingResult slippery = solve_rolling(c);
@@ -162,21 +162,21 @@ TREAD_TEST(reference_slip_friction)(tread::tests::Check &check, const tread::tes
         c.creepage                = creepage;
         const RollingResult r     = with(factor);
         double              worst = 0., hottest = 0.;
-        for (unsigned int j = 0; j < r.n_y; ++j)
+        for (unsigned int j = 0; j < r.grid.n_y; ++j)
           {
             std::vector<double> flux; // from the leading edge on
             double              before = 0.;
-            for (unsigned int i = r.n_x; i-- > 0;)
+            for (unsigned int i = r.grid.n_x; i-- > 0;)
               {
-                const std::size_t e     = std::size_t(j) * r.n_x + i;
+                const std::size_t e     = std::size_t(j) * r.grid.n_x + i;
                 const double      shear = std::hypot(r.shear_x[e], r.shear_y[e]);
                 flux.push_back(shear * std::hypot(r.slip_x[e], r.slip_y[e]));
                 double rise = 0.;
                 for (std::size_t k = 0; k < flux.size(); ++k)
                   {
-                    const double since = r.element_size / c.speed * (flux.size() - k);
+                    const double since = r.grid.dx / c.speed * (flux.size() - k);
                     rise += 2. * share * flux[k] / (effusivity * std::sqrt(M_PI)) *
-                            (std::sqrt(since) - std::sqrt(since - r.element_size / c.speed));
+                            (std::sqrt(since) - std::sqrt(since - r.grid.dx / c.speed));
                   }
                 hottest = std::max(hottest, rise);
                 if (r.state[e] == ElementState::slip)

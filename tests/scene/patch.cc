@@ -44,7 +44,7 @@ TREAD_TEST(scene_patch)(tests::Check &check, const tests::Arguments &)
   const reference::RollingResult answer = reference::solve_rolling(half_space_case(crown));
   double                         force  = 0.;
   for (unsigned int e = 0; e < answer.x.size(); ++e)
-    force += answer.pressure[e] * answer.element_size * answer.element_size *
+    force += answer.pressure[e] * answer.grid.dx * answer.grid.dx *
              traction_over_pressure(answer, answer.x[e], answer.y[e])[0];
   check.relative("tractions of a start: their force, N", force, answer.longitudinal_force, 1e-9);
   check.relative("tractions of a start: over pressure behind the patch",
@@ -69,7 +69,7 @@ TREAD_TEST(scene_patch)(tests::Check &check, const tests::Arguments &)
             end   = std::max(end, fine.y[i]);
           }
       const double element =
-        0.1 * scene.stance().ellipse(scene.static_load()).semi_axis_y + 0.5 * fine.element_size;
+        0.1 * scene.stance().ellipse(scene.static_load()).semi_axis_y + 0.5 * fine.grid.dx;
       check.absolute(name + "one side of the first contact, mm", 1e3 * (patch.begin - y), 1e3 * begin,
                      1e3 * element);
       check.absolute(name + "the other side, mm", 1e3 * (patch.end - y), 1e3 * end, 1e3 * element);

@@ -33,7 +33,7 @@ namespace track_flexible_axle
   {
     WheelHub hub(parameters(damping_time));
     hub.place(Vector3{});
-    hub.release({0., 0., 0., 0., 0., 0.});
+    hub.guidance.release({0., 0., 0., 0., 0., 0.}, hub.motion.yaw);
     hub.motion.angular_velocity = angular_velocity;
     hub.advance(Vector3{}, Vector3{}, step);
     return hub;
@@ -181,7 +181,7 @@ namespace track_flexible_axle
         WheelHub hub(p);
         hub.place(Vector3{place, 0., 0., 0.});
         if (rides)
-          hub.ride([](const double x) { return bend * x; });
+          hub.settling.ride([](const double x) { return bend * x; });
         hub.motion.x          = place;
         hub.motion.velocity_x = speed;
         hub.advance(Vector3{}, Vector3{}, step);

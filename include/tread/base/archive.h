@@ -2,14 +2,13 @@
 #ifndef tread_base_archive_h
 #define tread_base_archive_h
 
+#include <tread/base/stored_bytes.h>
+
 #include <mpi.h>
 
 #include <array>
 #include <cstddef>
-#include <map>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <typeinfo>
 #include <vector>
 
@@ -28,16 +27,6 @@ namespace tread
   class Archive
   {
   public:
-    /// What was stored has other values than those that are asked for.
-    class OtherLayout : public std::runtime_error
-    {
-    public:
-      OtherLayout()
-        : std::runtime_error("the stored state has another layout")
-      {
-      }
-    };
-
     /// A name of a node or cell that does not depend on ranks: body and reference position in nm.
     using Key = std::array<long long, 4>;
 
@@ -45,7 +34,7 @@ namespace tread
     explicit Archive(const MPI_Comm comm);
 
     /// To restore. @param parts what stored() gave on each rank, in the order of the ranks.
-    /// @throws OtherLayout if these are no such parts.
+    /// @throws OtherStoredLayout if these are no such parts.
     Archive(const MPI_Comm comm, const std::string &parts);
 
     bool restores() const
@@ -54,18 +43,18 @@ namespace tread
     }
 
     /// What all ranks know alike: numbers, enumerations, structures of these, and vectors and maps of such.
-    /// The first rank's are stored. @throws OtherLayout if what was stored is of another size.
+    /// The first rank's are stored. @throws OtherStoredLayout if what was stored is of another size.
     template <typename... T>
     void same(T &...values)
     {
       if (is_restoring)
-        (read(values, 0), ...);
+        (parts[0].read(values), ...);
       else if (this_rank == 0)
-        (write(values), ...);
+        (parts[0].write(values), ...);
     }
 
-    /// The same for vectors of which the scene determines how many values they have. @throws OtherLayout also
-    /// if another number was stored.
+    /// The same for vectors of which the scene determines how many values they have. @throws
+    /// OtherStoredLayout also if another number was stored.
     template <typename... T>
     void same_number(std::vector<T> &...values)
     {
@@ -98,14 +87,14 @@ namespace tread
     {
       if (!is_restoring)
         {
-          write(values);
+          parts[0].write(values);
           return true;
         }
       std::vector<T, A> of_rank;
       for (unsigned int rank = 0; rank < parts.size(); ++rank)
         {
           std::vector<T, A> stored;
-          read(stored, rank);
+          parts[rank].read(stored);
           if (rank == this_rank)
             of_rank.swap(stored);
         }
@@ -122,14 +111,14 @@ namespace tread
     {
       if (!is_restoring)
         {
-          write(of_this_rank);
+          parts[0].write(of_this_rank);
           return {};
         }
       std::vector<Record> all;
       for (unsigned int rank = 0; rank < parts.size(); ++rank)
         {
           std::vector<Record> stored;
-          read(stored, rank);
+          parts[rank].read(stored);
           all.insert(all.end(), stored.begin(), stored.end());
         }
       return all;
@@ -150,109 +139,23 @@ namespace tread
     std::string stored_by_all() const;
 
   private:
-    /// What one rank has stored, and how far it is read.
-    struct Part
-    {
-      std::string bytes;
-      std::size_t next = 0;
-    };
-
     bool on_all_ranks(const bool holds) const;
-    void put(const void *values, const std::size_t n, const std::size_t size);
-    /// @returns the number n of values, which must be of this size and all be there; get_values() copies
-    /// them.
-    std::size_t get_number(const unsigned int rank, const std::size_t size);
-    void        get_values(const unsigned int rank, void *values, const std::size_t bytes);
-    void        share(double &value);
-    void        maximum(double &value);
+    void share(double &value);
+    void maximum(double &value);
 
     template <typename T>
     void keep_number(std::vector<T> &values)
     {
       const std::size_t number = values.size();
       same(values);
-      require_number(number, values.size());
+      if (values.size() != number)
+        throw OtherStoredLayout();
     }
 
-    template <typename T>
-    void write(const T &value)
-    {
-      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
-      put(&value, 1, sizeof value);
-    }
-
-    template <typename T>
-    void read(T &value, const unsigned int rank)
-    {
-      static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
-      require_number(1, get_number(rank, sizeof value));
-      get_values(rank, &value, sizeof value);
-    }
-
-    /// Another byte than 0 or 1 would be neither true nor false.
-    void read(bool &value, const unsigned int rank)
-    {
-      unsigned char stored;
-      read(stored, rank);
-      if (stored > 1)
-        throw OtherLayout();
-      value = stored == 1;
-    }
-
-    template <typename T, typename A>
-    void write(const std::vector<T, A> &values)
-    {
-      if constexpr (std::is_trivially_copyable_v<T>)
-        put(values.data(), values.size(), sizeof(T));
-      else
-        {
-          put(nullptr, values.size(), 0);
-          for (const T &value : values)
-            write(value);
-        }
-    }
-
-    template <typename T, typename A>
-    void read(std::vector<T, A> &values, const unsigned int rank)
-    {
-      constexpr bool plain = std::is_trivially_copyable_v<T>;
-      values.resize(get_number(rank, plain ? sizeof(T) : 0));
-      if constexpr (plain)
-        get_values(rank, values.data(), values.size() * sizeof(T));
-      else
-        for (T &value : values)
-          read(value, rank);
-    }
-
-    template <typename K, typename T>
-    void write(const std::map<K, T> &values)
-    {
-      put(nullptr, values.size(), 0);
-      for (const auto &[key, value] : values)
-        {
-          write(key);
-          write(value);
-        }
-    }
-
-    template <typename K, typename T>
-    void read(std::map<K, T> &values, const unsigned int rank)
-    {
-      values.clear();
-      for (std::size_t n = get_number(rank, 0); n > 0; --n)
-        {
-          K key;
-          read(key, rank);
-          read(values[key], rank);
-        }
-    }
-
-    static void require_number(const std::size_t wanted, const std::size_t stored);
-
-    MPI_Comm          comm;
-    unsigned int      this_rank;
-    bool              is_restoring, same_ranks = true, has_missed = false;
-    std::vector<Part> parts; ///< when storing: this rank's alone
+    MPI_Comm                 comm;
+    unsigned int             this_rank;
+    bool                     is_restoring, same_ranks = true, has_missed = false;
+    std::vector<StoredBytes> parts; ///< when storing: this rank's alone
   };
 } // namespace tread
 

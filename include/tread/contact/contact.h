@@ -3,11 +3,15 @@
 #define tread_contact_contact_h
 
 #include <tread/base/archive.h>
+#include <tread/contact/contact_arrays.h>
 #include <tread/contact/contact_records.h>
 #include <tread/contact/contact_surfaces.h>
 #include <tread/contact/mortar.h>
+#include <tread/contact/prescribed_contact.h>
 #include <tread/contact/strips.h>
+#include <tread/contact/until_refresh.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,6 +26,8 @@ namespace tread
   /// finds the strip's impulses, these are gathered, and each rank applies those on its own nodes.
   class Contact
   {
+    UntilRefresh until_refresh; ///< stands before what refers to it
+
   public:
     Contact(const Mesh                        &mesh,
             const ContactParameters           &parameters,
@@ -36,42 +42,7 @@ namespace tread
       return std::exchange(friction, std::move(law));
     }
 
-    /// Prescribe tangential tractions instead of finding them, from the next refresh on, which becomes due by
-    /// this call. The function gives the traction on the master surface over the pressure at the position of
-    /// a slave node in the mesh (m), which does not move from one element of a table to the next. An empty
-    /// function restores the friction law.
-    void give_tractions(std::function<Vector3(const Vector3)> over_pressure)
-    {
-      given.tractions   = std::move(over_pressure);
-      until_refresh.due = 0.;
-    }
-
-    using Sliding = std::function<Vector3(const Vector3 place, const unsigned int master)>;
-
-    /// Impose sliding on the pairs: a velocity (m/s) of master over slave surface that adds to what their
-    /// nodes do, as if the surfaces themselves flowed; its part along the normal is left out. Lateral
-    /// creepage and spin of a wheel whose axle does neither. The function is given the position of a slave
-    /// node in the mesh (m) and the master body; an empty one imposes nothing. @returns the one before
-    Sliding impose_sliding(Sliding velocity)
-    {
-      return std::exchange(given.sliding, std::move(velocity));
-    }
-
-    /// Friction differs from place to place: a factor of the law's coefficient at the position of a slave
-    /// node in the mesh (m), from the next refresh on.
-    void vary_friction(std::function<double(const Vector3)> factor)
-    {
-      given.friction_factor = std::move(factor);
-      until_refresh.due     = 0.;
-    }
-
-    /// Another factor of the law's coefficient at a slave node, by its number among the surfaces', from the
-    /// next refresh on, or from renew_friction(), which is to be called when it has changed.
-    void vary_friction_with_node(std::function<double(unsigned int)> factor)
-    {
-      given.friction_factor_of_node = std::move(factor);
-      until_refresh.due             = 0.;
-    }
+    /// Ask for the friction factors of places and nodes anew.
     void renew_friction();
 
     /// Friction depends on the pressure (Pa): another factor of the law's coefficient. Not while the
@@ -94,8 +65,7 @@ namespace tread
 
     bool refresh_due() const
     {
-      return until_refresh.time >= until_refresh.due ||
-             until_refresh.travelled >= until_refresh.allowed_travel;
+      return until_refresh.is_due();
     }
 
     /// Sum extra (n numbers) over the ranks in their order, and give each rank the predicted velocities of
@@ -157,18 +127,6 @@ namespace tread
       return strips.n_strips();
     }
 
-    /// Number of steps in which the sweeps ended before the tolerance was reached, without those of the
-    /// start.
-
-    std::uint64_t n_unconverged_steps() const
-    {
-      return unconverged_steps;
-    }
-    void set_n_unconverged_steps(const std::uint64_t n)
-    {
-      unconverged_steps = n;
-    }
-
     /// Nodes of this rank on both surfaces that touched at the last refresh, or will have begun to touch
     /// before the next one at the speed that they had.
     std::vector<unsigned int> nodes_near() const;
@@ -181,11 +139,15 @@ namespace tread
     /// known by their places: impulses and, of friction with a memory, coefficients. Collective.
     void go_on_from(Contact &before);
 
-    /// Store or restore the state, after set_inverse_masses(): all but friction law and given tractions, and
+    /// Store or restore the state, after set_inverse_masses(): all but friction law, what is prescribed and
     /// what a step finds of velocities. Collective.
     void serialize(Archive &archive);
 
     const ContactSurfaces surfaces;
+    PrescribedContact     prescribed; ///< tractions, sliding and friction factors from place to place
+    /// Number of steps in which the sweeps ended before the tolerance was reached, without those of the
+    /// start.
+    std::uint64_t n_unconverged_steps = 0;
 
   private:
     /// What a pair that touched nothing in the last step slips in this one before it touches, over the step:
@@ -198,21 +160,10 @@ namespace tread
                               const Vector3                     sliding) const;
     /// Let the coefficients of the strip's pairs follow their slip in this step.
     void age_friction(const double time_step);
-    /// What a slave node has of its pair, by surface node.
-    struct MemoryOfNodes
-    {
-      std::vector<Vector3> impulse;     ///< in the last step, N s
-      std::vector<double>  coefficient; ///< of friction with a memory; else empty
-    };
-    /// That of the present pairs.
+    /// Of the present pairs.
     MemoryOfNodes memory_of_nodes();
     /// Work of the strip's pairs in this step, from their impulses and the mean velocities of their nodes.
     void add_work_of_pairs();
-    /// Slip of a pair of the strip with the relative velocity u (m/s), while it touches: what an entering
-    /// pair slips before that is left out.
-    Vector3 slip_of(unsigned int constraint, const Vector3 u) const;
-    /// Work that the tangential impulse of a pair loses, with the mean relative velocity u of the step, J.
-    double tangential_loss(unsigned int constraint, double normal, const Vector3 u) const;
     /// Largest speeds of this rank's own slave and master nodes, m/s.
     std::array<double, 2> largest_speeds(const Vector3 *v) const;
     /// Rotate the normals with the slave faces between two refreshes.
@@ -234,20 +185,11 @@ namespace tread
     /// strips are made.
     void make_room(const std::vector<unsigned int> &begin_of_strip = {});
 
-    MPI_Comm                           comm;
-    ContactParameters                  parameters;
-    std::shared_ptr<const FrictionLaw> friction;
-    std::vector<double>                inverse_mass; ///< by surface node
-    double                             face_size;
-    /// What the user of the contact prescribes.
-    struct Given
-    {
-      std::function<Vector3(const Vector3)> tractions;
-      std::function<double(const Vector3)>  friction_factor;
-      std::function<double(unsigned int)>   friction_factor_of_node;
-      Sliding                               sliding;
-    } given;
-
+    MPI_Comm                                  comm;
+    ContactParameters                         parameters;
+    std::shared_ptr<const FrictionLaw>        friction;
+    std::vector<double>                       inverse_mass; ///< by surface node
+    double                                    face_size;
     ContactProblem                            problem;
     std::unique_ptr<FirstRanks>               first_ranks;
     Strips                                    strips;
@@ -256,82 +198,19 @@ namespace tread
     std::vector<ContactSurfaces::HangingNode> involved_hanging; ///< compact numbers
     std::vector<unsigned int> swept_nodes; ///< compact numbers of those that the strip's sweeps move
 
-    /// Of the involved nodes, by compact number. At the end of a step positions and velocities are known for
-    /// the nodes of this rank's strip, for those that its normals follow, and for the rank's own nodes.
-    struct OfNodes
-    {
-      std::vector<Vector3> position, predicted, velocity, velocity_before;
-      std::vector<Vector3> mean_velocity; ///< of before and after the step
-    } nodes;
-
-    /// By constraint.
-    struct OfPairs
-    {
-      std::vector<Vector3>            impulse;          ///< of the last step
-      std::vector<unsigned int>       master_of;        ///< the body of its master surface
-      std::vector<Vector3>            previous_impulse; ///< those that act on the strip
-      std::vector<Vector3>            given_ratio;      ///< of impulses, tangential over normal
-      std::vector<Vector3>            offset;           ///< of the strip, see solve_coulomb()
-      std::vector<Vector3>            imposed;          ///< of the strip: sliding in the last step, m/s
-      std::vector<Vector3>            before_entry; ///< likewise: slip before it touched, over the step, m/s
-      std::vector<char>               slips;        ///< of the strip: as the last solve left it
-      std::vector<double>             slid;         ///< of the strip: since the last refresh, m
-      std::vector<PairRecord::Totals> totals;       ///< likewise; empty: not recorded
-    } pairs;
+    ContactNodes nodes;
+    ContactPairs pairs;
     PairFriction pair_friction; ///< coefficients by constraint of the strip, factors of all
     std::function<void(const PairRecord &)> take_record; ///< none: pairs are not recorded
-
-    /// Which predictions go from rank to rank.
-    struct Exchange
-    {
-      std::vector<std::vector<unsigned int>> involved_of_rank; ///< compact numbers
-      /// Data of the involved nodes of this rank, in their order, that a prediction needs.
-      struct Predicted
-      {
-        unsigned int node, local; ///< compact number, number on this rank
-        double       inverse_mass;
-      };
-      std::vector<Predicted> own;
-      /// Compact numbers of the nodes whose prediction goes to or comes from each rank.
-      std::vector<std::vector<unsigned int>> sent_to, received_from;
-      std::vector<double>                    send_buffer, receive_buffer;
-    } exchange;
-
-    /// Effect of the constraints on the nodes of the strip or of this rank. It is summed in the same order on
-    /// all ranks that know a node, so that its position is the same on all of them.
-    struct Effects
-    {
-      struct NodeTerms
-      {
-        unsigned int node;         ///< compact number
-        int          local;        ///< number on this rank, -1 if it has no copy
-        bool         owned;        ///< by this rank
-        double       inverse_mass; ///< 1/kg
-        unsigned int begin, end;   ///< range of terms
-      };
-      struct Term
-      {
-        unsigned int constraint;
-        double       coefficient;
-      };
-      std::vector<NodeTerms> of_nodes;
-      std::vector<Term>      terms;
-    } effects;
-
-    std::vector<unsigned int>              rim_nodes;   ///< compact numbers
-    std::vector<std::vector<unsigned int>> slave_faces; ///< of each surface node: numbers of its slave faces
+    PredictionExchange                      exchange;
+    EffectsOfPairs                          effects;
+    std::vector<unsigned int>               rim_nodes;   ///< compact numbers
+    std::vector<std::vector<unsigned int>>  slave_faces; ///< of each surface node: numbers of its slave faces
     /// Compact numbers of the corners of the slave faces around each constraint, four a face.
     std::vector<std::vector<unsigned int>> corners_around;
     unsigned int                           steps_since_normals = 0;
-    struct UntilRefresh
-    {
-      double time = 0., due = 0.;                 ///< since the last one, and when the next must be, s
-      double closing_speed = 0.;                  ///< largest speeds of both bodies' nodes, added, m/s
-      double travelled = 0., allowed_travel = 0.; ///< by that speed, m
-    } until_refresh;
     std::vector<unsigned int>    own_nodes[2]; ///< local numbers of this rank's own slave and master nodes
     ContactWork                  work;
-    std::uint64_t                unconverged_steps = 0;
     std::optional<MemoryOfNodes> from_other_mesh; ///< for the next refresh
   };
 } // namespace tread

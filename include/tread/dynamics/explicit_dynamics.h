@@ -3,6 +3,7 @@
 #define tread_dynamics_explicit_dynamics_h
 
 #include <tread/base/archive.h>
+#include <tread/dynamics/carries_body.h>
 #include <tread/dynamics/critical_step.h>
 #include <tread/dynamics/energy_books.h>
 #include <tread/dynamics/moving_bodies.h>

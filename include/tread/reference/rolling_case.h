@@ -4,6 +4,7 @@
 
 #include <tread/reference/elastic.h>
 #include <tread/reference/friction.h>
+#include <tread/reference/hertz.h>
 #include <tread/reference/influence.h>
 
 #include <functional>
@@ -67,11 +68,7 @@ namespace tread::reference
   /// The answer to a RollingCase. Vectors have one entry per grid element, x fastest.
   struct RollingResult
   {
-    unsigned int n_x            = 0;  ///< elements in x
-    unsigned int n_y            = 0;  ///< elements in y
-    double       element_size   = 0.; ///< along x [m]
-    double       element_size_y = 0.; ///< along y [m]
-
+    Grid                grid;
     std::vector<double> x, y;             ///< element centres [m]; one lies at (0, 0)
     std::vector<double> pressure;         ///< [Pa], >= 0
     std::vector<double> shear_x, shear_y; ///< traction on the wheel [Pa]
@@ -89,13 +86,12 @@ namespace tread::reference
     double spin                 = 0.; ///< [rad/m]
     double approach             = 0.; ///< of distant points of the two bodies [m]
 
+    HertzEllipse hertz{}; ///< exact, for the same case
+
     double max_pressure   = 0.; ///< largest element value [Pa]
-    double hertz_pressure = 0.; ///< Hertz's exact maximum for the same case [Pa]
     double area           = 0.; ///< number of elements in contact times their area [m^2]
     double semi_axis_x    = 0.; ///< half the longest row of elements in contact [m]
     double semi_axis_y    = 0.; ///< half the longest column [m]
-    double hertz_semi_x   = 0.; ///< Hertz's exact a [m]
-    double hertz_semi_y   = 0.; ///< Hertz's exact b [m]
     double adhesion_share = 0.; ///< elements in adhesion over elements in contact [-]
     double max_shear      = 0.; ///< [Pa]
     double max_slip       = 0.; ///< [m/s]
@@ -105,17 +101,17 @@ namespace tread::reference
                                ///< bodies without radius_change -(Fx xi + Fy eta + Mz phi) v [W]; converges
                                ///< faster, the better reference
 
-    unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
-    unsigned int tangential_iterations = 0;  ///< Newton steps on the grid itself
-    unsigned int linear_iterations     = 0;  ///< Krylov steps on the grid itself
-    double       normal_residual       = 0.; ///< largest error of the gap in contact over the approach [-]
-    double       tangential_residual   = 0.; ///< largest violation of Coulomb's law over f p_max [-]
-    double       solve_seconds         = 0.; ///< wall time [s]
-
-    Grid grid() const
+    /// How the solver came to it.
+    struct Convergence
     {
-      return {n_x, n_y, element_size, element_size_y, x[0], y[0]};
-    }
+      unsigned int normal_iterations     = 0;  ///< conjugate-gradient steps
+      unsigned int tangential_iterations = 0;  ///< Newton steps on the grid itself
+      unsigned int linear_iterations     = 0;  ///< Krylov steps on the grid itself
+      double       normal_residual       = 0.; ///< largest error of the gap in contact over the approach [-]
+      double       tangential_residual   = 0.; ///< largest violation of Coulomb's law over f p_max [-]
+      double       seconds               = 0.; ///< wall time [s]
+    };
+    Convergence convergence;
   };
 
   /// Solve a case with the half-space solver. Chooses the grid itself: with the centre element at (0, 0), it

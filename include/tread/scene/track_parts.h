@@ -3,7 +3,6 @@
 #define tread_scene_track_parts_h
 
 #include <tread/scene/scene.h>
-#include <tread/track/rail_base.h>
 #include <tread/track/rail_ends.h>
 #include <tread/track/supports.h>
 
@@ -17,8 +16,7 @@ namespace tread
   struct TrackBeamParameters;
 
   /// What carries the rail of a scene.
-  TrackParameters    track_parameters(const Scene &scene);
-  RailBaseParameters rail_base_parameters(const Scene &scene);
+  TrackParameters track_parameters(const Scene &scene);
   /// Under the meshed piece of the rail, its cells' mass included.
   BeamUnderRail beam_under_rail(const Scene &scene);
   /// The absorbing ends of the rail. Their length is 0 if the ends are symmetric.

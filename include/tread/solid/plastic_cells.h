@@ -7,25 +7,11 @@
 #include <tread/material/plastic.h>
 #include <tread/mesh/mesh.h>
 #include <tread/solid/one_point_batch.h>
+#include <tread/solid/plastic_zone.h>
 #include <tread/solid/surface_layer.h>
-
-#include <functional>
 
 namespace tread
 {
-  /// Cells of one body that may yield.
-  struct PlasticZone
-  {
-    unsigned int    body;
-    PlasticMaterial material;
-    /// Whether a cell with its centre at this reference position (m) belongs to the zone.
-    std::function<bool(const dealii::Point<3> &)> contains;
-  };
-
-  /// Index of the zone in which a cell of a body with this centre (reference configuration, m) may yield: the
-  /// last zone that contains it; -1 if there is none or if that zone is elastic.
-  int zone_at(const std::vector<PlasticZone> &zones, const unsigned int body, const dealii::Point<3> &centre);
-
   /// History of the cells of all plastic zones of a rank. It is part of the state of a run, like the
   /// positions.
   struct PlasticHistory

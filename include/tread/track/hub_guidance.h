@@ -49,9 +49,9 @@ namespace tread
     {
       return kind == Guidance::rigid;
     }
-    /// From now on. @param across at a time from now, s
+    /// Move across the track as given from now on. @param across at a time from now, s
     void follow(const std::function<Across(const double time)> &across);
-    /// From now on. @param yaw at present, rad
+    /// Move across the track on springs from now on. @param yaw at present, rad
     void release(const GuidanceSprings &on, const double yaw);
 
     /// Velocities of the motion that is followed, as differences over a step. @param rolls whether the roll

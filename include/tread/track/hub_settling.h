@@ -47,8 +47,9 @@ namespace tread
     double                roll_inertia() const;
     /// Tell the masses of carried nodes and of free cells, as they move, kg.
     void count(const double carried, const double cells);
-    /// The height at which contact bears the load varies along the way. @param curvature its second
-    /// derivative by x, 1/m, at x
+    /// A hub that settles is carried along the height at which contact bears the load, which varies along the
+    /// way, so that its mass does not lag behind. @param curvature second derivative of that height by x,
+    /// 1/m, at x
     void ride(const std::function<double(const double x)> &curvature)
     {
       curvature_of_way = curvature;

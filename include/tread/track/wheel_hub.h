@@ -8,37 +8,13 @@
 #include <tread/track/hub_guidance.h>
 #include <tread/track/hub_motion.h>
 #include <tread/track/hub_settling.h>
+#include <tread/track/wheel_hub_parameters.h>
 
 #include <array>
-#include <functional>
 #include <optional>
 
 namespace tread
 {
-  /// How the axle is driven.
-  enum class Drive
-  {
-    creepage,        ///< the angular velocity is prescribed by the creepage
-    torque,          ///< a torque acts on the axle
-    angular_velocity ///< it is prescribed as such, of a wheelset in a given position
-  };
-
-  struct WheelHubParameters
-  {
-    double mass = 0.; ///< of the wheel, kg; the share of the cells is subtracted when they are attached
-    double moment_of_inertia    = 0.;   ///< of the wheel about the axle, kg m^2
-    double sprung_mass          = 0.;   ///< kg
-    double suspension_stiffness = 0.;   ///< N/m
-    double suspension_damping   = 0.;   ///< N s/m
-    double gravity              = 9.81; ///< m/s^2
-    double yaw_inertia          = 0.;   ///< of the wheelset without the cells, about the vertical, kg m^2
-    double roll_inertia = 0.; ///< likewise, about x, where both wheels carry it; 0: roll is prescribed
-    /// Between both wheels, which then are alike; none: rigid.
-    std::optional<FlexibleAxleParameters> axle{};
-    /// As it begins, without the masses that it is told; none: it has its own inertia.
-    std::optional<SettlingOfHub> settling{};
-  };
-
   /// The rigid part of a wheel: it carries the flexible cells on its surface, rests under the
   /// primary suspension with the sprung mass, runs along x at constant speed, moves in z and
   /// turns about its axle, which is y or stands in a yaw and a roll. Positive angular velocity rolls towards
@@ -64,25 +40,12 @@ namespace tread
     /// roll (rad).
     void place(const Vector3 middle, const double yaw = 0., const double roll = 0.);
 
-    /// Move across the track as given from now on. @param across at a time from now, s
-    void follow(const std::function<Across(const double time)> &across)
-    {
-      guidance.follow(across);
-    }
-
     /// Take the velocities of the motion that is followed. @param time_step over which they are differences,
     /// s. @param rise vertical velocity with it, m/s; @param roll_rate of a hub that rolls, rad/s
     void begin_to_follow(const double time_step, const double rise, const double roll_rate);
 
     /// Rise from now on with the rail. @param speed m/s
     void begin_to_rise(const double speed);
-
-    /// A hub that settles is carried along the height at which contact bears the load, so that its mass does
-    /// not lag behind. @param curvature second derivative of that height by x, 1/m, at x
-    void ride(const std::function<double(const double x)> &curvature)
-    {
-      settling.ride(curvature);
-    }
 
     /// Whether the roll follows from the forces.
     bool rolls() const
@@ -94,14 +57,8 @@ namespace tread
     {
       return !guidance.is_rigid() || rolls();
     }
-    /// HubTurn the axle about x, rad.
+    /// Turn the axle about x, rad.
     void roll_by(const double angle);
-
-    /// Move across the track on springs from now on.
-    void release(const GuidanceSprings &springs)
-    {
-      guidance.release(springs, motion.yaw);
-    }
 
     /// Define the present position of the axle as the equilibrium of the suspension.
     void balance_suspension()
@@ -118,12 +75,6 @@ namespace tread
 
     /// Moments about the middles of both wheels (N m).
     using OfSides = FlexibleAxle::OfSides<Vector3>;
-
-    /// Tell the masses of carried nodes and of free cells, as they move, kg, to a hub that settles.
-    void settle_with(const double carried, const double cells)
-    {
-      settling.count(carried, cells);
-    }
 
     /// One central-difference step under the force (N) and the moment about the middle (N m) that
     /// the flexible cells exert. @param on_wheels of a flexible axle: what carried nodes exert on its wheels
@@ -172,11 +123,6 @@ namespace tread
     {
       return arm - dot(axle(), arm) * axle();
     }
-    /// Mean lateral force of guidance in the last step, on the hub, N.
-    double guidance_force() const
-    {
-      return guidance.lateral_force();
-    }
 
     /// Present turns of both wheels, for a loop over points; the first one's is that of a wheel alone.
     std::array<HubTurn, 2> turns() const;
@@ -220,6 +166,8 @@ namespace tread
     double             drive_torque = 0.; ///< N m, used when drive == torque
     Motion             motion;
     WheelHubParameters parameters;
+    HubGuidance        guidance; ///< that leads it across the track
+    HubSettling        settling; ///< where inertia is no part of the answer
 
   private:
     /// A vector of the reference configuration turned about the axle, and with it.
@@ -276,8 +224,6 @@ namespace tread
     WheelsetAxes reference, present;
     double  reference_x = 0., reference_y = 0., reference_z = 0., equilibrium_z = 0., work = 0., gross = 0.;
     Vector3 reference_first_moment{}; ///< of the rigid rest
-    HubGuidance                 guidance;
-    HubSettling                 settling;
     std::optional<FlexibleAxle> flexible;
   };
 } // namespace tread

@@ -46,7 +46,7 @@ namespace tread
     for (unsigned int k = 0; k < sums.size(); ++k)
       of_all[k] = sums[k].value(of.mesh.comm);
     hub.take_out(of_all[0], of_all[1], Vector3{of_all[2], of_all[3], of_all[4], 0.});
-    hub.settle_with(of.parameters.density_scale * of_all[5], of.parameters.density_scale * of_all[0]);
+    hub.settling.count(of.parameters.density_scale * of_all[5], of.parameters.density_scale * of_all[0]);
   }
 
 

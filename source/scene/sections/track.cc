@@ -107,19 +107,19 @@ namespace tread
       "ballast_stiffness_MN_per_m and ballast_damping_kN_s_per_m, in place of the parameters of these names, "
       "and ballast_gap_mm, of a sleeper that hangs as far above its ballast.");
     section.add(
-      "Co-running mass (kg)", co_running_mass,
+      "Co-running mass (kg)", co_running.mass,
       "Mass of the track that moves with the rail under the wheel, without the meshed part of the rail.",
       Number(10., 1e6));
-    section.add("Vertical stiffness (MN per m)", vertical_stiffness,
+    section.add("Vertical stiffness (MN per m)", co_running.vertical.stiffness,
                 "Vertical stiffness of the co-running track under a wheel; the force counts from the "
                 "equilibrium at the start.",
                 stiffness);
-    section.add("Vertical damping (kN s per m)", vertical_damping,
+    section.add("Vertical damping (kN s per m)", co_running.vertical.damping,
                 "Vertical damping of the co-running track.", damping);
-    section.add("Lateral stiffness (MN per m)", lateral_stiffness,
+    section.add("Lateral stiffness (MN per m)", co_running.lateral.stiffness,
                 "Lateral stiffness of the co-running track.", stiffness);
-    section.add("Lateral damping (kN s per m)", lateral_damping, "Lateral damping of the co-running track.",
-                damping);
+    section.add("Lateral damping (kN s per m)", co_running.lateral.damping,
+                "Lateral damping of the co-running track.", damping);
     section.add("Beam bending stiffness (MN m2)", beam_bending_stiffness,
                 "E I of the rail's whole section, of which a beam is made, that of the cells included. The "
                 "default is a 60E1 rail's; a crossing has several times as much.",

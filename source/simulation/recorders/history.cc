@@ -118,7 +118,7 @@ namespace tread
                        (motion.velocity_z - sum.start_speed) / interval_seconds(),
                        motion.y + scene.wheelset.position().shift,
                        motion.yaw,
-                       wheel.hub.guidance_force(),
+                       wheel.hub.guidance.lateral_force(),
                        motion.roll,
                        (1. / steps) * sum.other_force,
                        sum.inner_force / steps,

@@ -2,6 +2,7 @@
 #ifndef tread_dynamics_parts_added_mass_h
 #define tread_dynamics_parts_added_mass_h
 
+#include <tread/dynamics/carries_body.h>
 #include <tread/dynamics/part.h>
 
 #include <vector>

@@ -3,6 +3,7 @@
 #define tread_scene_sections_track_h
 
 #include <tread/base/section.h>
+#include <tread/track/rail_base.h>
 
 namespace tread
 {
@@ -36,22 +37,20 @@ namespace tread
   /// Section `Track`. SI units.
   struct TrackSection
   {
-    Foundation   foundation      = Foundation::rigid;
-    SleeperKind  sleepers        = SleeperKind::mass;
-    double       sleeper_spacing = 0.6;
-    double       support_0       = 0.; ///< x of the support with number 0
-    double       pad_stiffness = 1300e6, pad_damping = 45e3, pad_length = 0.15, pad_width = 0.14;
-    unsigned int points_along = 3, points_across = 4;
-    double       sleeper_mass   = 200.; ///< half a sleeper
-    double       sleeper_length = 2.52, sleeper_width = 0.25, rail_distance = 1.5;
-    double       sleeper_young_modulus = 38.4e9, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
-    double       ballast_stiffness = 45e6, ballast_damping = 32e3;
-    double       stiffness_along = 40e6; ///< of a support beyond endless ends
-    bool         pads_pull       = true;
-    std::string  support_file; ///< supports with springs of their own; empty: none
-    double       co_running_mass    = 450.;
-    double       vertical_stiffness = 100e6, vertical_damping = 60e3, lateral_stiffness = 30e6,
-           lateral_damping = 30e3;
+    Foundation         foundation      = Foundation::rigid;
+    SleeperKind        sleepers        = SleeperKind::mass;
+    double             sleeper_spacing = 0.6;
+    double             support_0       = 0.; ///< x of the support with number 0
+    double             pad_stiffness = 1300e6, pad_damping = 45e3, pad_length = 0.15, pad_width = 0.14;
+    unsigned int       points_along = 3, points_across = 4;
+    double             sleeper_mass   = 200.; ///< half a sleeper
+    double             sleeper_length = 2.52, sleeper_width = 0.25, rail_distance = 1.5;
+    double             sleeper_young_modulus = 38.4e9, sleeper_poisson_ratio = 0.2, sleeper_density = 2520.;
+    double             ballast_stiffness = 45e6, ballast_damping = 32e3;
+    double             stiffness_along = 40e6; ///< of a support beyond endless ends
+    bool               pads_pull       = true;
+    std::string        support_file; ///< supports with springs of their own; empty: none
+    RailBaseParameters co_running{450., {100e6, 60e3}, {30e6, 30e3}};
     // 60E1
     double      beam_bending_stiffness = 6.4e6, beam_shear_stiffness = 250e6, beam_mass = 60.2;
     std::string beam_file; ///< stretches of it that differ; empty: none
