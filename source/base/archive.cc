@@ -104,7 +104,7 @@ namespace tread
     std::vector<char>       found = wanted;
     same(found);
     if (found != wanted)
-      throw OtherLayout();
+      throw OtherStoredLayout();
   }
 
 

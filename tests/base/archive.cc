@@ -110,7 +110,7 @@ TREAD_TEST(base_archive)(tests::Check &check, const tests::Arguments &)
   Archive found(MPI_COMM_SELF, kept.stored());
   keep<State>(found);
   check.that("what a kind has stored it finds again", found.found_all());
-  check.that("another kind with the same numbers is refused", !tests::complaint<Archive::OtherLayout>([&] {
+  check.that("another kind with the same numbers is refused", !tests::complaint<OtherStoredLayout>([&] {
                                                                  Archive others(MPI_COMM_SELF, kept.stored());
                                                                  keep<OtherState>(others);
                                                                }).empty());

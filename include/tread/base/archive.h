@@ -61,7 +61,8 @@ namespace tread
       (keep_number(values), ...);
     }
 
-    /// What comes next belongs to something of this kind. @throws OtherLayout if what was stored does not
+    /// What comes next belongs to something of this kind. @throws OtherStoredLayout if what was stored does
+    /// not
     void kind(const std::type_info &type);
 
     /// Shares of sums over the ranks. On as many ranks as before each gets its own back; on others the first
