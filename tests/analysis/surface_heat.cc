@@ -170,8 +170,11 @@ namespace analysis_surface_heat
     ParameterTable table;
     Section        section(table, "Damage");
     declare_damage_indices(section);
-    table.set(*table.find("Damage/Function T-gammas (N)"), "15, 65, 175");
-    table.set(*table.find("Damage/Function damages"), "0, 10, 0");
+    const auto set = [&](const std::string &name, const std::string &value) {
+      check.that(name + " is set", table.set(*table.find("Damage/" + name), value));
+    };
+    set("Function T-gammas (N)", "15, 65, 175");
+    set("Function damages", "0, 10, 0");
     const double wanted[] = {0.25, 4., 0., 5e6, 26.5e-3, 0.};
     unsigned int k        = 0;
     for (const DamageIndexEntry &entry : damage_indices())
@@ -211,14 +214,14 @@ namespace analysis_surface_heat
                tests::complaint<InputError>([] {
                  TGammaDamage({15., 65.}, {0.});
                }) == "'Damage/Function T-gammas (N)' has 2 numbers, 'Function damages' has 1");
-    section.set("Regime slopes (ug per m N)", "5.3");
+    set("Regime slopes (ug per m N)", "5.3");
     check.that("one slope for two regimes is refused",
-               tests::complaint<InputError>([&] { RegimeWearRate::make(section); }) ==
+               tests::complaint<InputError>([&] { RegimeWearRate::make(table.handler()); }) ==
                  "'Damage/Regime slopes (ug per m N)' has two numbers");
-    section.set("Regime slopes (ug per m N)", "5.3, 61.9");
-    section.set("Regime borders (N per mm2)", "77, 10");
+    set("Regime slopes (ug per m N)", "5.3, 61.9");
+    set("Regime borders (N per mm2)", "77, 10");
     check.that("borders of regimes that fall are refused", tests::complaint<InputError>([&] {
-                                                             RegimeWearRate::make(section);
+                                                             RegimeWearRate::make(table.handler());
                                                            }).find("must rise") != std::string::npos);
   }
 } // namespace analysis_surface_heat

@@ -426,7 +426,7 @@ namespace contact_falling_friction
     bool refused = false;
     try
       {
-        make_friction_law("falling", 0.1, section); // below the kinetic coefficient
+        make_friction_law("falling", 0.1, table.handler()); // below the kinetic coefficient
       }
     catch (const std::invalid_argument &)
       {
