@@ -2,6 +2,7 @@
 #include <tread/output/columns.h>
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <array>
@@ -45,7 +46,7 @@ namespace tread
   {
     return word.find_first_of(",\"") == std::string::npos
              ? word
-             : '"' + std::regex_replace(word, std::regex("\""), "\"\"") + '"';
+             : '"' + dealii::Utilities::replace_in_string(word, "\"", "\"\"") + '"';
   }
 
 

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
@@ -13,7 +14,6 @@
 #include <filesystem>
 #include <functional>
 #include <numeric>
-#include <regex>
 #include <sstream>
 
 namespace tread
@@ -108,6 +108,17 @@ namespace tread
           {std::string("recovered_stress_") + components[k] + "_MPa", [&stresses, k](const unsigned int i) {
              return 1e-6 * stresses[i][k];
            }});
+      return fields;
+    }
+
+    /// Numbers that somebody keeps on nodes. @see State::fields
+    Scalars<unsigned int> kept_fields(const State &state)
+    {
+      Scalars<unsigned int> fields;
+      for (const auto &[name, values] : state.fields)
+        fields.push_back({name, [&values = values](const unsigned int i) {
+                            return values[i];
+                          }});
       return fields;
     }
 
@@ -241,8 +252,8 @@ namespace tread
               continue;
             const std::string group = number_in(alone);
             all.emplace_back(group, path(alone));
-            grids.push_back(
-              std::regex_replace(series.grids[i], std::regex(alone + ":/"), joined + ":/" + group + "/"));
+            grids.push_back(dealii::Utilities::replace_in_string(series.grids[i], alone + ":/",
+                                                                 joined + ":/" + group + "/"));
           }
         if (all.empty())
           continue;
@@ -311,6 +322,7 @@ namespace tread
     std::vector<unsigned int> cells(mesh.cells.size());
     std::iota(cells.begin(), cells.end(), 0u);
     add_fields(picture, points.nodes, true, of_nodes, stress_fields(stresses, 1));
+    add_fields(picture, points.nodes, true, {}, kept_fields(dynamics.state));
     add_fields(picture, cells, false, {}, of_cells);
     add_picture("volume", picture, dynamics.state.time);
   }
@@ -352,6 +364,7 @@ namespace tread
       values.push_back(of_nodes[node]);
     add_surface_fields(picture, values, true, states);
     add_fields(picture, points.nodes, true, {}, stress_fields(stresses, 7));
+    add_fields(picture, points.nodes, true, {}, kept_fields(dynamics.state));
     if (!damage.empty())
       {
         std::vector<SurfacePlace> of_mesh(mesh.nodes.size());

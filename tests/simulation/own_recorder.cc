@@ -6,6 +6,7 @@
 #include <tread/output/columns.h>
 #include <tread/output/summary_keys.h>
 #include <tread/simulation/model.h>
+#include <tread/simulation/recorders/pictures.h>
 #include <tread/simulation/recorders/recorder.h>
 
 #include "check.h"
@@ -93,6 +94,34 @@ namespace simulation_own_recorder
     H5free_memory(text);
     return found;
   }
+
+  /// Numbers on nodes that somebody adds are in the pictures of bodies and surfaces.
+  void check_pictures_of_fields(tests::Check &check, Model &model)
+  {
+    const auto temperature = [](const double y, const double z) { ///< C; places in m
+      return 20. + 1e3 * y - 500. * z;
+    };
+    std::vector<double> &field = model.dynamics.state.fields["temperature_C"];
+    for (const dealii::Point<3> &p : model.mesh.nodes)
+      field.push_back(temperature(p[1], p[2]));
+    const tests::TemporaryFolder temporary;
+    const std::string            path = temporary.path + "/pictures";
+    RunFolder                    folder(path, MPI_COMM_SELF, PictureFormat::xdmf);
+    Pictures                     pictures(model, nullptr);
+    static_cast<Recorder &>(pictures).take_solution(folder);
+    for (const std::string name : {"volume", "surface"})
+      {
+        const hdf5::Handle        file(hdf5::open(path + "/" + name + "-0000.h5"), H5Fclose);
+        const std::vector<double> places = hdf5::read(file, "points"),
+                                  shown  = hdf5::read(file, "temperature_C");
+        double off                       = 0.;
+        for (std::size_t i = 0; i < shown.size(); ++i)
+          off = std::max(off, std::abs(shown[i] - temperature(places[3 * i + 1], places[3 * i + 2])));
+        check.that(name + ": a number for each point",
+                   shown.size() > 100 && 3 * shown.size() == places.size());
+        check.below(name + ": temperature of its points, C", off, 1e-4); // single precision
+      }
+  }
 } // namespace simulation_own_recorder
 
 
@@ -146,4 +175,5 @@ TREAD_TEST(simulation_own_recorder)(tests::Check &check, const tests::Arguments 
   check.that("its key has a meaning", !about_summary_key("largest_hub_power_W").empty());
   RunFolder(path, MPI_COMM_SELF).remove_results();
   check.that("another run into the folder removes it", !std::filesystem::exists(path + "/hub_power.csv"));
+  check_pictures_of_fields(check, model);
 }

@@ -37,8 +37,8 @@ namespace tread
     }
     void set_damping_time(const double beta); ///< positions stay
 
-    /// Numbers on nodes that somebody adds to the model, by a name with its unit (temperature_K): they are
-    /// kept in checkpoints.
+    /// Numbers on nodes that somebody adds to the model, by a name with its unit (temperature_K), alike on
+    /// all ranks: they are kept in checkpoints and shown in pictures.
     std::map<std::string, std::vector<double>> fields;
 
     NodalField     v;                 ///< m/s, half a step back
