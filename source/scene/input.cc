@@ -119,12 +119,12 @@ namespace tread
   void Scene::read(const std::string &file, const std::vector<std::string> &settings, const SceneUse use)
   {
     take(file, settings);
-    require(
-      !rail.is_meshed() || !is_positioned(),
-      "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and 'Motion/Angular velocity "
-      "(rad per s)' must be left out");
     // A wheelset in a given position has no point of first contact by an upright wheel.
-    if (!is_positioned())
+    if (is_positioned())
+      require(!rail.is_meshed(),
+              "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and "
+              "'Motion/Angular velocity (rad per s)' must be left out");
+    else
       {
         made_shapes = make_shapes(*this);
         add_patch(made_shapes, *this);

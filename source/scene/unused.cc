@@ -52,7 +52,7 @@ namespace tread
     }
 
     /// Tables along the path of which none lies on it, one line each.
-    std::vector<std::string> tables_beside_the_path(const Scene &scene)
+    std::vector<std::string> tables_beside_the_path(const Scene &scene, const bool positioned)
     {
       std::vector<std::string> lines;
       // More than any patch is long.
@@ -67,7 +67,7 @@ namespace tread
                         text_in_mm(scene.path_begin(scene.last_wheel())) + " to " +
                         text_in_mm(scene.meshed_end()) + " mm: the friction factor is " +
                         text_of(scene.contact.friction_factor(scene.path_begin())) + " on all of it");
-      if (const auto &places = scene.contact.across_places; !places.empty() && !scene.is_positioned())
+      if (const auto &places = scene.contact.across_places; !places.empty() && !positioned)
         if (const PatchExtent &patch = scene.shapes().patch;
             places.front() > patch.end || places.back() < patch.begin)
           lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
@@ -316,7 +316,7 @@ namespace tread
                              (elsewhere ? "" : group.section + "/") + group.main + "' " + group.needed);
             break;
           }
-    for (const std::string &line : tables_beside_the_path(*this))
+    for (const std::string &line : tables_beside_the_path(*this, positioned))
       unused.push_back(line);
     return unused;
   }

@@ -162,10 +162,8 @@ namespace tread
         "no half-space answer where the wheelset has arrived, and positions, angles and creepages of "
         "'patches' are those of the start: " +
         model.wheelset.problem());
-    if (scene.is_positioned())
-      for (const std::string &warning :
-           climbing_patches(model.wheelset.placed().surfaces, model.wheelset.placed().patches()))
-        warnings.push_back(warning);
+    for (const std::string &warning : model.wheelset.stance().warnings())
+      warnings.push_back(warning);
     if (report.completed)
       {
         for (const std::string &doubt : doubts_at_start(model))

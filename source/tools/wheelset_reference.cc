@@ -37,7 +37,7 @@ namespace tread
     const WheelContact      &contact  = placed.contact;
     const double             rail_y   = placed.surfaces.rail_origin_y();
     std::vector<std::string> warnings = limits_of_half_space(contact.patches);
-    for (const std::string &warning : climbing_patches(placed.surfaces, contact.patches))
+    for (const std::string &warning : placed.warnings())
       warnings.push_back(warning);
     const MeasuredProfiles profiles(scene);
     for (const std::vector<std::string> &more :

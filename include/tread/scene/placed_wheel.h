@@ -80,7 +80,12 @@ namespace tread
     double factor_across(const Vector3 &place) const override;
     std::vector<std::pair<double, double>>                   loaded_lines() const override;
     std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const override;
-    unsigned int                                             n_separate_patches() const override
+    /// Patches that climb.
+    std::vector<std::string> warnings() const override
+    {
+      return climbing_patches(surfaces, patches());
+    }
+    unsigned int n_separate_patches() const override
     {
       return patches().size();
     }

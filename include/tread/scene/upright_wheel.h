@@ -40,6 +40,10 @@ namespace tread
     {
       return state;
     }
+    std::vector<std::string> warnings() const override
+    {
+      return {};
+    }
     unsigned int n_separate_patches() const override
     {
       return 0;

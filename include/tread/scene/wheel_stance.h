@@ -91,6 +91,8 @@ namespace tread
     /// Force, normal and slip of a node in the contact axes of its patch; its position stays. @param wheel_x
     /// m
     virtual ContactNodeState in_contact_axes(const ContactNodeState &state, const double wheel_x) const = 0;
+    /// What should not be for long of how the wheels touch, a line each.
+    virtual std::vector<std::string> warnings() const = 0;
     /// Patches that a run measures one by one; 0: all contact of a wheel is one patch.
     virtual unsigned int n_separate_patches() const = 0;
 

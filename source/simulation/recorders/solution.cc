@@ -45,7 +45,7 @@ namespace tread
     const bool differs_from_start =
       scene.guidance.kind != Guidance::rigid || scene.wheelset.has_flexible_axle() ||
       scene.rail.is_sliced() || scene.motion.drive == Drive::torque || !scene.contact.friction_places.empty();
-    if (differs_from_start && scene.is_positioned() && !model.wheelset.has_moved())
+    if (differs_from_start && !averages_of_patches.empty() && !model.wheelset.has_moved())
       place_wheelset();
     const auto   states    = model.contact_states();
     const double time_step = model.dynamics.state.time_step;
