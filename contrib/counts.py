@@ -110,7 +110,7 @@ def counts(revision: str) -> dict[str, str]:
     found = sorted(((members + methods, name, members, methods) for text in headers.values() for name, members, methods in classes(text)), reverse=True)
     longest = sorted(((text.count("\n"), name) for name, text in headers.items()), reverse=True)[:3]
     anew = compiled_with(texts)
-    of = lambda name: str(anew[f"include/tread/{name}"]) if f"include/tread/{name}" in anew else "-"
+    of = lambda *names: next((str(anew[path]) for path in (f"include/tread/{name}" for name in names) if path in anew), "-")
     manual = [text for name, text in texts.items() if re.fullmatch(r"doc/[^/]+\.md", name)]
     return {"lines of C++ in source and include": str(lines((".cc", ".h"), "source", "include")),
             "lines of tests": str(lines((".cc", ".h", ".py"), "tests")),
@@ -127,7 +127,7 @@ def counts(revision: str) -> dict[str, str]:
             "files compiled anew after a change of scene.h": of("scene/scene.h"),
             "... of mesh.h": of("mesh/mesh.h"), "... of explicit_dynamics.h": of("dynamics/explicit_dynamics.h"),
             "... of a section (wheel.h)": of("scene/sections/wheel.h"), "... of a part (supports.h)": of("dynamics/parts/supports.h"),
-            "... of a recorder (history.h)": of("simulation/recorders/history.h"), "... of summary_keys.h": of("output/summary_keys.h")}
+            "... of a recorder (history.h)": of("recorders/history.h", "simulation/recorders/history.h"), "... of summary_keys.h": of("output/summary_keys.h")}
 
 
 def main() -> None:

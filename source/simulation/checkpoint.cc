@@ -215,17 +215,19 @@ namespace tread
       for (const ParameterFile::Setting &setting : scene.parameters().values())
         if (setting.path == rolled_distance) // not among those of a run that may go on
           now.push_back(setting);
-      const std::string run  = "--resume: the run in '" + folder.path("") + "' is complete, ",
+      const std::string run  = "--resume: the run in '" + folder.path("") + "' ",
                         anew = "; without --resume it starts anew";
       for (const ParameterFile::Setting &setting : now)
         require(ParameterFile::same_value(before.at(setting.path), setting.value),
-                run + "and was made with '" + setting.path + "' " + before.at(setting.path) + ", now " +
-                  setting.value + anew);
+                run + "is complete, and was made with '" + setting.path + "' " + before.at(setting.path) +
+                  ", now " + setting.value + anew);
       const FilesCompared files = compare_files(
         files_in_comments(text_of_file(folder.path("parameters.prm"))), scene.parameters().files_read());
-      require(files.unlike.empty(), run + "and was made with other contents: " + files.unlike + anew);
-      require(files.unknown.empty(), run + "but its 'parameters.prm' does not say what the file of '" +
-                                       files.unknown + "' contained" + anew);
+      require(files.unlike.empty(),
+              run + "is complete, and was made with other contents: " + files.unlike + anew);
+      require(files.unknown.empty(),
+              run + "is complete, but its 'parameters.prm' does not say what the file of '" + files.unknown +
+                "' contained" + anew);
     };
     std::string problem;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)

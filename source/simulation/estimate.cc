@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run would cost.
 #include <tread/base/format.h>
+#include <tread/recorders/history.h>
 #include <tread/scene/assumptions.h>
 #include <tread/scene/doubts.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
 #include <tread/simulation/doubts.h>
-#include <tread/simulation/recorders/history.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,14 +3,14 @@
 #include <tread/base/stop_signal.h>
 #include <tread/base/version.h>
 #include <tread/base/went_wrong.h>
+#include <tread/recorders/on_demand.h>
+#include <tread/recorders/surface_damage.h>
 #include <tread/scene/assumptions.h>
 #include <tread/scene/doubts.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/measured_profiles.h>
 #include <tread/simulation/checkpoint.h>
 #include <tread/simulation/doubts.h>
-#include <tread/simulation/recorders/on_demand.h>
-#include <tread/simulation/recorders/surface_damage.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>

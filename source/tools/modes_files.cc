@@ -2,11 +2,11 @@
 #include <tread/analysis/modes.h>
 #include <tread/base/format.h>
 #include <tread/base/version.h>
+#include <tread/model/rolling_wheel.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/track_parts.h>
-#include <tread/simulation/rolling_wheel.h>
 #include <tread/tools/modes_files.h>
 #include <tread/track/track_beam.h>
 

@@ -3,9 +3,9 @@
 // record has a value of its own, so that an exchange is noticed, and every column of a table is compared.
 #include <tread/output/columns.h>
 #include <tread/output/summary_keys.h>
-#include <tread/simulation/recorders/history.h>
-#include <tread/simulation/recorders/passages.h>
-#include <tread/simulation/recorders/stresses.h>
+#include <tread/recorders/history.h>
+#include <tread/recorders/passages.h>
+#include <tread/recorders/stresses.h>
 
 #include "check.h"
 

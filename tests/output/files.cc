@@ -5,7 +5,7 @@
 #include <tread/base/file_text.h>
 #include <tread/output/run_folder.h>
 #include <tread/output/summary.h>
-#include <tread/simulation/recorders/history.h>
+#include <tread/recorders/history.h>
 
 #include <deal.II/base/utilities.h>
 

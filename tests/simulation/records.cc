@@ -2,9 +2,9 @@
 // What a run keeps of its way: extremes of the forces, ripples of the force at its end, the mean of the
 // patch, and what the cost of a run is estimated from.
 #include <tread/base/file_text.h>
-#include <tread/simulation/recorders/end_of_way.h>
-#include <tread/simulation/recorders/impact_record.h>
-#include <tread/simulation/recorders/solution.h>
+#include <tread/recorders/end_of_way.h>
+#include <tread/recorders/impact_record.h>
+#include <tread/recorders/solution.h>
 #include <tread/simulation/simulation.h>
 
 #include <deal.II/base/numbers.h>

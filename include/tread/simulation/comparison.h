@@ -2,9 +2,9 @@
 #ifndef tread_simulation_comparison_h
 #define tread_simulation_comparison_h
 
-#include <tread/simulation/model.h>
-#include <tread/simulation/recorders/end_of_way.h>
-#include <tread/simulation/recorders/solution.h>
+#include <tread/model/model.h>
+#include <tread/recorders/end_of_way.h>
+#include <tread/recorders/solution.h>
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 #ifndef tread_simulation_doubts_h
 #define tread_simulation_doubts_h
 
-#include <tread/simulation/model.h>
-#include <tread/simulation/recorders/end_of_way.h>
+#include <tread/model/model.h>
+#include <tread/recorders/end_of_way.h>
 
 #include <string>
 #include <vector>

@@ -3,19 +3,19 @@
 #define tread_simulation_simulation_h
 
 #include <tread/base/archive.h>
+#include <tread/model/model.h>
 #include <tread/output/progress.h>
 #include <tread/output/quality.h>
 #include <tread/output/run_folder.h>
+#include <tread/recorders/end_of_way.h>
+#include <tread/recorders/history.h>
+#include <tread/recorders/passages.h>
+#include <tread/recorders/pictures.h>
+#include <tread/recorders/recorder.h>
+#include <tread/recorders/solution.h>
 #include <tread/scene/half_space_case.h>
 #include <tread/scene/scene.h>
 #include <tread/simulation/comparison.h>
-#include <tread/simulation/model.h>
-#include <tread/simulation/recorders/end_of_way.h>
-#include <tread/simulation/recorders/history.h>
-#include <tread/simulation/recorders/passages.h>
-#include <tread/simulation/recorders/pictures.h>
-#include <tread/simulation/recorders/recorder.h>
-#include <tread/simulation/recorders/solution.h>
 
 #include <mpi.h>
 
