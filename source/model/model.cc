@@ -94,6 +94,12 @@ namespace tread
   }
 
 
+  unsigned int Model::find_equilibrium(const std::function<void(unsigned int, double)> &after_measurement)
+  {
+    return dynamics.relax(scene.start.tolerance, scene.start.max_iterations, after_measurement);
+  }
+
+
   std::vector<std::vector<ContactNodeState>> Model::contact_states() const
   {
     std::vector<std::vector<ContactNodeState>> of_wheels(wheels.size());

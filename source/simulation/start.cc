@@ -108,8 +108,7 @@ namespace tread
                         (left ? format("  about %.0f s left", *left) : ""));
         }
     };
-    relaxation_iterations =
-      model.dynamics.relax(scene.start.tolerance, scene.start.max_iterations, after_each_measurement);
+    relaxation_iterations = model.find_equilibrium(after_each_measurement);
     if (!free_rolling_known)
       measure_free_rolling();
     relaxation_seconds = progress.seconds() - began;

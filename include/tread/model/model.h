@@ -13,6 +13,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -91,6 +92,10 @@ namespace tread
     {
       return {wheels.front().position(scene), wheels.front().rates(scene)};
     }
+    /// Find the equilibrium at rest from which wheels roll, to section `Start`. @param after_measurement is
+    /// told the iteration and what is not balanced over the load @returns the number of iterations.
+    /// Collective. @see tread::relax
+    unsigned int find_equilibrium(const std::function<void(unsigned int, double)> &after_measurement);
     /// Of all ranks, bytes. Collective.
     double    memory_of_cells_and_nodes() const;
     AddedMass added_mass() const; ///< Collective.
