@@ -168,8 +168,14 @@ namespace analysis_surface_heat
     DamageIndex::Load       unknown = load;
     unknown.shear_strength          = 0.;
     ParameterTable table;
-    Section        section(table, "Damage");
-    declare_damage_indices(section);
+    {
+      Section section(table, "Damage");
+      declare_damage_indices(section);
+    }
+    const auto made = [&table](const auto make) { // with the present values
+      const Section section(table, "Damage");
+      return make(table.handler());
+    };
     const auto set = [&](const std::string &name, const std::string &value) {
       check.that(name + " is set", table.set(*table.find("Damage/" + name), value));
     };
@@ -179,7 +185,7 @@ namespace analysis_surface_heat
     unsigned int k        = 0;
     for (const DamageIndexEntry &entry : damage_indices())
       {
-        const auto index = entry.make(table.handler());
+        const auto index = made(entry.make);
         check.absolute(entry.key, index->value(load).value() / std::max(wanted[k], 1e-3),
                        wanted[k] / std::max(wanted[k], 1e-3), 1e-12);
         check.that(entry.key + " is there without a yield stress if it does not need it",
@@ -216,12 +222,12 @@ namespace analysis_surface_heat
                }) == "'Damage/Function T-gammas (N)' has 2 numbers, 'Function damages' has 1");
     set("Regime slopes (ug per m N)", "5.3");
     check.that("one slope for two regimes is refused",
-               tests::complaint<InputError>([&] { RegimeWearRate::make(table.handler()); }) ==
+               tests::complaint<InputError>([&] { made(RegimeWearRate::make); }) ==
                  "'Damage/Regime slopes (ug per m N)' has two numbers");
     set("Regime slopes (ug per m N)", "5.3, 61.9");
     set("Regime borders (N per mm2)", "77, 10");
     check.that("borders of regimes that fall are refused", tests::complaint<InputError>([&] {
-                                                             RegimeWearRate::make(table.handler());
+                                                             made(RegimeWearRate::make);
                                                            }).find("must rise") != std::string::npos);
   }
 } // namespace analysis_surface_heat

@@ -325,15 +325,19 @@ namespace contact_falling_friction
   {
     constexpr double way = 2e-3, least_speed = 0.05, dt = Block::time_step;
     ParameterTable   table;
-    Section          section(table, "Contact");
-    declare_friction_laws(section);
+    {
+      Section section(table, "Contact");
+      declare_friction_laws(section);
+    }
     for (const auto &[name, value] :
          {std::pair("Kinetic friction coefficient", kinetic_coefficient),
           std::pair("Falling slip speed (m per s)", slip_speed), std::pair("Friction memory (mm)", 1e3 * way),
           std::pair("Least speed of memory (m per s)", least_speed)})
-      table.set(*table.find(std::string("Contact/") + name), format("%.17g", value));
-    const auto law = make_friction_law("falling", static_coefficient, table.handler());
-    Block      block(*law);
+      check.that(std::string("memory: set ") + name,
+                 table.set(*table.find(std::string("Contact/") + name), format("%.17g", value)));
+    const Section section(table, "Contact");
+    const auto    law = make_friction_law("falling", static_coefficient, table.handler());
+    Block         block(*law);
     block.set_speed(1.);
     double     speed = 1., now = static_coefficient, apart = 0.;
     const auto age = [&]() {

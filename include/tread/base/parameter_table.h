@@ -37,11 +37,13 @@ namespace tread
     }
     /// Null: there is none of this path, Section/Name.
     const Parameter *find(const std::string &path) const;
-    std::string      value(const Parameter &parameter) const;
-    /// @returns false, and changes nothing, where the text is not allowed
+    /// @pre no section is open
+    std::string value(const Parameter &parameter) const;
+    /// @returns false, and changes nothing, where the text is not allowed. @pre no section is open
     bool set(const Parameter &parameter, const std::string &text);
 
-    /// deal.II's own table of them, which prints them, and from which laws take their values.
+    /// deal.II's own table of them, which prints them, and from which laws take the values of the section
+    /// that is open.
     const dealii::ParameterHandler &handler() const
     {
       return values;
