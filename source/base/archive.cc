@@ -10,46 +10,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    /// Stands before each group of values.
-    struct Group
-    {
-      std::uint64_t number, size; ///< of values; bytes of each, 0 where each has a group of its own
-    };
-  } // namespace
-
-
-  void StoredBytes::put(const void *values, const std::size_t n, const std::size_t size)
-  {
-    const Group group{n, size};
-    bytes.append(reinterpret_cast<const char *>(&group), sizeof group);
-    if (n * size > 0)
-      bytes.append(static_cast<const char *>(values), n * size);
-  }
-
-
-  std::size_t StoredBytes::get_number(const std::size_t size)
-  {
-    Group group;
-    get_values(&group, sizeof group);
-    const std::size_t least = size > 0 ? size : sizeof(Group);
-    if (group.size != size || group.number > (bytes.size() - next) / least)
-      throw OtherStoredLayout();
-    return group.number;
-  }
-
-
-  void StoredBytes::get_values(void *values, const std::size_t n_bytes)
-  {
-    if (bytes.size() - next < n_bytes)
-      throw OtherStoredLayout();
-    if (n_bytes > 0)
-      std::memcpy(values, bytes.data() + next, n_bytes);
-    next += n_bytes;
-  }
-
-
   Archive::Archive(const MPI_Comm comm)
     : comm(comm)
     , this_rank(dealii::Utilities::MPI::this_mpi_process(comm))

@@ -26,7 +26,7 @@ namespace tread
     constexpr double between_lines = 0.2e-3;
 
     /// Gap where there is no rail below the wheel, m.
-    constexpr double no_rail = 1e3;
+    constexpr double far_away = 1e3;
 
     WheelsetPosition at_height_0(WheelsetPosition position)
     {
@@ -110,9 +110,9 @@ namespace tread
     const double      z    = line.rail_z[column];
     const double      left = line.rail_z[before], right = line.rail_z[behind];
     // Beside a place without a rail the other side counts.
-    if (left < -0.5 * no_rail)
-      return right < -0.5 * no_rail ? 0. : (right - z) / column_spacing;
-    if (right < -0.5 * no_rail)
+    if (left < -0.5 * far_away)
+      return right < -0.5 * far_away ? 0. : (right - z) / column_spacing;
+    if (right < -0.5 * far_away)
       return (z - left) / column_spacing;
     return (right - left) / ((behind - before) * column_spacing);
   }
@@ -124,15 +124,15 @@ namespace tread
       return known->second;
     Line        &line = lines[number];
     const double x    = number * line_spacing;
-    line.gap.assign(columns, no_rail);
-    line.rail_z.assign(columns, -no_rail);
+    line.gap.assign(columns, far_away);
+    line.rail_z.assign(columns, -far_away);
     line.wheel_s.assign(columns, 0.);
     for (const PatchSurfaces::Section &section : heights.rail_sections(x))
       over_columns(section, y_begin, columns,
                    [&](const std::size_t column, const double height, const std::size_t, const double) {
                      line.rail_z[column] = std::max(line.rail_z[column], height);
                    });
-    std::vector<double> wheel_z(columns, no_rail);
+    std::vector<double> wheel_z(columns, far_away);
     over_columns(
       heights.wheel_section(x), y_begin, columns,
       [&](const std::size_t column, const double height, const std::size_t step, const double share) {
@@ -144,7 +144,7 @@ namespace tread
           }
       });
     for (std::size_t column = 0; column < columns; ++column)
-      if (wheel_z[column] < no_rail && line.rail_z[column] > -no_rail)
+      if (wheel_z[column] < far_away && line.rail_z[column] > -far_away)
         line.gap[column] = wheel_z[column] - line.rail_z[column];
     line.least = *std::min_element(line.gap.begin(), line.gap.end());
     return line;
@@ -169,10 +169,10 @@ namespace tread
   WheelOnRail::Nearest OverlapSearch::nearest(const double height)
   {
     const std::lock_guard lock(mutex);
-    double                least = no_rail;
+    double                least = far_away;
     for (const int k : coarse)
       least = std::min(least, line(k).least);
-    if (!(least < no_rail))
+    if (!(least < far_away))
       throw std::runtime_error("wheel and rail do not meet: nothing of the wheel is above the rail");
     int best = coarse.front();
     for (const int k : lines_below(least + between_lines))

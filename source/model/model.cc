@@ -9,7 +9,6 @@
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/surface_laws.h>
-#include <tread/scene/wheelset_case.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -12,7 +12,7 @@ namespace tread
   {
     /// Where the rail has no surface, as in the gap of a joint, it is this far below its section at the
     /// start, m.
-    constexpr double no_rail = 0.1;
+    constexpr double where_there_is_none = 0.1;
 
     /// A surface that differs by less from its section at the start is the same, with the error of a fit to
     /// coarse faces: a hundredth of what a loaded contact gives way, m.
@@ -90,8 +90,8 @@ namespace tread
             const double x      = from + i * (to - from) / std::max(n_along, 1),
                          across = y_begin + (y_end - y_begin) * j / n_across;
             const auto height   = made.rail_mesh->surface.height(x, across);
-            largest =
-              std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(across)) : no_rail);
+            largest = std::max(largest, height ? std::abs(*height - made.surfaces.rail_top(across))
+                                               : where_there_is_none);
           }
       return largest > round_off_of_fit ? largest : 0.;
     }
@@ -179,14 +179,15 @@ namespace tread
       made.surfaces.defect = [mesh = made.rail_mesh, top = made.surfaces.rail_top](const double x,
                                                                                    const double y) {
         const auto height = mesh->surface.height(x, y);
-        return height ? *height - top(y) : -no_rail;
+        return height ? *height - top(y) : -where_there_is_none;
       };
   }
 
 
   std::string uneven_in_words(const Scene &scene)
   {
-    return scene.shapes().unevenness < no_rail ? text_in_mm(scene.shapes().unevenness) + " mm" : "a gap";
+    return scene.shapes().unevenness < where_there_is_none ? text_in_mm(scene.shapes().unevenness) + " mm"
+                                                           : "a gap";
   }
 
 

@@ -385,6 +385,13 @@ namespace tread
   }
 
 
+  std::string ParameterFile::as_read(std::string value)
+  {
+    std::replace(value.begin(), value.end(), '\t', ' ');
+    return dealii::Utilities::trim(value.substr(0, value.find('#')));
+  }
+
+
   bool ParameterFile::same_value(const std::string &a, const std::string &b)
   {
     char        *end_a, *end_b;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <tread/base/format.h>
 #include <tread/geometry/profile_names.h>
 #include <tread/geometry/wheel_deviation.h>
 #include <tread/geometry/wheel_tread.h>

@@ -15,9 +15,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -173,17 +172,23 @@ namespace tread
       }
     Values all = before;
     all.insert(now.begin(), now.end());
-    const auto value = [](const Values &values, const std::string &name) {
+    const auto value = [](const Values &values, const std::string &name) -> std::optional<std::string> {
       const auto found = values.find(name);
-      return found == values.end() ? "none" : found->second.empty() ? "empty" : found->second;
+      return found == values.end() ? std::nullopt : std::optional(found->second);
+    };
+    const auto in_words = [](const std::optional<std::string> &text) {
+      return !text ? "none" : text->empty() ? "empty" : *text;
     };
     for (const auto &[name, text] : all)
-      require(ParameterFile::same_value(value(before, name), value(now, name)),
-              "--resume: the checkpoint was made with other parameters: '" + name + "' " +
-                value(before, name) + ", now " + value(now, name) +
-                (name == rolled_distance ? "; a run can be made longer if it began with a 'Motion/Longest "
-                                           "distance (mm)', for which its rail is meshed"
-                                         : ""));
+      {
+        const auto old_value = value(before, name), new_value = value(now, name);
+        require(old_value && new_value && ParameterFile::same_value(*old_value, *new_value),
+                "--resume: the checkpoint was made with other parameters: '" + name + "' " +
+                  in_words(old_value) + ", now " + in_words(new_value) +
+                  (name == rolled_distance ? "; a run can be made longer if it began with a 'Motion/Longest "
+                                             "distance (mm)', for which its rail is meshed"
+                                           : ""));
+      }
   }
 
 
@@ -211,14 +216,17 @@ namespace tread
       std::map<std::string, std::string> before;
       for (const ParameterFile::Setting &setting : parameters_of_run())
         before[setting.path] = setting.value;
-      std::vector<ParameterFile::Setting> now = settings_that_stay();
+      std::vector<ParameterFile::Setting> now;
+      for (const ParameterFile::Setting &setting : settings_that_stay())
+        if (!setting.path.starts_with("Output/")) // which a complete run is not asked to change
+          now.push_back(setting);
       for (const ParameterFile::Setting &setting : scene.parameters().values())
         if (setting.path == rolled_distance) // not among those of a run that may go on
           now.push_back(setting);
       const std::string run  = "--resume: the run in '" + folder.path("") + "' ",
                         anew = "; without --resume it starts anew";
       for (const ParameterFile::Setting &setting : now)
-        require(ParameterFile::same_value(before.at(setting.path), setting.value),
+        require(ParameterFile::same_value(before.at(setting.path), ParameterFile::as_read(setting.value)),
                 run + "is complete, and was made with '" + setting.path + "' " + before.at(setting.path) +
                   ", now " + setting.value + anew);
       const FilesCompared files = compare_files(

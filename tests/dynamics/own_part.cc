@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a part is added: a magnet that pulls the upper face of a body. Beside what stands here, a program that
-// has it needs one line where Model adds its parts. A cube that flies towards it has the energy that the
+// has it needs a function in the list of model/parts.cc. A cube that flies towards it has the energy that the
 // magnet's potential has lost.
 #include <tread/base/reproducible_sum.h>
 #include <tread/dynamics/explicit_dynamics.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How a recorder is added: power at the hub, as a table, in run.h5 and in the summary. Beside what stands
-// here, a program that records it has one line where Simulation adds its recorders.
+// here, a program that records it has a function in the list of recorders/on_demand.cc.
 #include <tread/base/file_text.h>
 #include <tread/base/hdf5_file.h>
 #include <tread/model/model.h>
@@ -13,6 +13,7 @@
 #include "temporary_folder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -123,8 +123,8 @@ namespace tread
       add(name, value, meaning, OneOf(names));
     }
 
-    /// A parameter whose value who needs it takes from the table, or is told. @param value the default, as in
-    /// the file
+    /// A parameter whose value is taken from the table later, or handed to `take`. @param value the default,
+    /// as in the file
     void declare(const std::string                              &name,
                  const std::string                              &value,
                  const AllowedTexts                             &allowed,

@@ -3,7 +3,6 @@
 #define tread_contact_contact_arrays_h
 
 #include <tread/base/simd.h>
-#include <tread/contact/contact_problem.h>
 #include <tread/contact/contact_records.h>
 
 #include <vector>

@@ -10,7 +10,7 @@ namespace tread
 {
   // What of a scene does not make sense. All throw InputError, one line that names the parameters.
 
-  /// What is wanted of it.
+  /// All checks of a scene. @param use what is wanted of it
   void check_sections(const Scene &scene, const SceneUse use);
 
   // By topic.

@@ -80,11 +80,11 @@ namespace tread
   /// the balance of forces and creepages.
   ContactAnswer contact_answer(const reference::RollingEstimate &half_space);
 
-  /// Write the first entries of every summary: forces, patch, creepage, and Hertz's values for comparison.
-  /// @param method by which the answer was found
   /// Add the indices of damage, of several patches the largest. Those without a load are left out.
   void summarise_damage(Summary &summary, const Scene &scene, const std::vector<DamageIndex::Load> &loads);
 
+  /// Write the first entries of every summary: forces, patch, creepage, and Hertz's values for comparison.
+  /// @param method by which the answer was found
   void summarise(Summary             &summary,
                  const Scene         &scene,
                  const std::string   &method,

@@ -40,6 +40,8 @@ namespace tread
     std::vector<Setting> values() const;
     /// Those that are not what they are without being set.
     std::vector<Setting> changed_values() const;
+    /// What is read of a value that stands in a parameter file, where # begins a comment; -s takes all of it.
+    static std::string as_read(std::string value);
     /// Whether two texts are the same, or the same number.
     static bool same_value(const std::string &a, const std::string &b);
 
