@@ -4,6 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -29,14 +30,6 @@ namespace tread
       if (least.empty())
         return largest.empty() ? "a finite number" : "at most " + largest;
       return least + (largest.empty() ? " or more" : " to " + largest);
-    }
-
-    std::string joined(const std::vector<std::string> &words, const char *between)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : between) + word;
-      return text;
     }
   } // namespace
 
@@ -137,7 +130,7 @@ namespace tread
 
 
   OneOf::OneOf(const std::vector<std::string> &words)
-    : AllowedTextsOf(dealii::Patterns::Selection(joined(words, "|")))
+    : AllowedTextsOf(dealii::Patterns::Selection(boost::algorithm::join(words, "|")))
     , words(words)
   {
   }
@@ -145,7 +138,7 @@ namespace tread
 
   std::string OneOf::in_words() const
   {
-    return joined(words, " or ");
+    return boost::algorithm::join(words, " or ");
   }
 
 

@@ -118,7 +118,7 @@ namespace tread
           joined.text += goes_on ? line.substr(0, line.size() - 1) : line;
           if (goes_on && input.peek() != std::istringstream::traits_type::eof())
             continue;
-          joined.text = dealii::Utilities::trim(joined.text.substr(0, joined.text.find('#')));
+          joined.text = ParameterFile::as_read(joined.text);
           if (!joined.text.empty())
             lines.push_back(joined);
           joined = {"", 0};
@@ -170,19 +170,6 @@ namespace tread
                                 return edit_distance(name, a.section) < edit_distance(name, b.section);
                               })
         ->section;
-    }
-
-    /// @param place where it is set, for the beginning of a message @throws InputError
-    void set_value(ParameterTable    &table,
-                   const Parameter   &parameter,
-                   const std::string &value,
-                   const std::string &place)
-    {
-      // What else to say about a value that is none of the allowed ones.
-      const std::string advice = parameter.path() == "Rail/Profile" ? advice_on_rail(value) : "";
-      require(table.set(parameter, value),
-              place + "'" + parameter.path() + "' cannot be '" + shortened(value) +
-                "'; allowed: " + parameter.allowed->in_words() + (advice.empty() ? "" : ". " + advice));
     }
 
     /// Entries of studies, which have no section around them.
@@ -295,8 +282,7 @@ namespace tread
             const auto [first, is_first] = lines_of_parameters.emplace(path, line.number);
             require(is_first, where + "'" + path + "' is set in line " + std::to_string(first->second) +
                                 " already: leave one of the two lines out");
-            given.insert(path);
-            set_value(declared, *parameter, dealii::Utilities::trim(setting->substr(equals + 1)), where);
+            give(*parameter, dealii::Utilities::trim(setting->substr(equals + 1)), where);
           }
         else
           refuse_line(file, line, open, declared);
@@ -367,11 +353,7 @@ namespace tread
       throw InputError("-s \"" + shortened(setting) + "\": expected Section/Name=value");
     const std::string path = strip(setting.substr(0, equals)), value = strip(setting.substr(equals + 1));
     if (const Parameter *const parameter = declared.find(path))
-      {
-        set_value(declared, *parameter, value, "");
-        given.insert(path);
-        return;
-      }
+      return give(*parameter, value, "");
     const std::string unknown = shortened(path);
     if (declared.find(value))
       throw InputError("-s \"" + shortened(setting) + "\": the parameter comes first, as in \"" + value +
@@ -382,6 +364,17 @@ namespace tread
       throw InputError("-s \"" + shortened(setting) + "\": '" + unknown +
                        "' is no parameter; expected Section/Name=value");
     throw InputError("no parameter '" + unknown + "'; " + did_you_mean(declared.parameters(), unknown));
+  }
+
+
+  void ParameterFile::give(const Parameter &parameter, const std::string &value, const std::string &where)
+  {
+    // What else to say about a value that is none of the allowed ones.
+    const std::string advice = parameter.path() == "Rail/Profile" ? advice_on_rail(value) : "";
+    require(declared.set(parameter, value),
+            where + "'" + parameter.path() + "' cannot be '" + shortened(value) +
+              "'; allowed: " + parameter.allowed->in_words() + (advice.empty() ? "" : ". " + advice));
+    given.insert(parameter.path());
   }
 
 
@@ -400,12 +393,18 @@ namespace tread
   }
 
 
+  ParameterFile::Setting ParameterFile::setting_of(const Parameter &parameter) const
+  {
+    return {parameter.path(), declared.value(parameter), given.count(parameter.path()) > 0};
+  }
+
+
   std::vector<ParameterFile::Setting> ParameterFile::changed_values() const
   {
     std::vector<Setting> changed;
     for (const Parameter &parameter : declared.parameters())
-      if (const std::string value = declared.value(parameter); !same_value(value, parameter.normal))
-        changed.push_back({parameter.path(), value, true});
+      if (const Setting setting = setting_of(parameter); !same_value(setting.value, parameter.normal))
+        changed.push_back(setting);
     return changed;
   }
 
@@ -414,7 +413,7 @@ namespace tread
   {
     std::vector<Setting> values;
     for (const Parameter &parameter : declared.parameters())
-      values.push_back({parameter.path(), declared.value(parameter), given.count(parameter.path()) > 0});
+      values.push_back(setting_of(parameter));
     return values;
   }
 

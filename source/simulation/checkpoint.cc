@@ -79,15 +79,15 @@ namespace tread
   }
 
 
-  std::string Checkpoint::parameters() const
+  Checkpoint::Values Checkpoint::parameters() const
   {
-    nlohmann::ordered_json values;
+    Values values;
     for (const ParameterFile::Setting &setting : settings_that_stay())
       values[setting.path] = setting.value;
     for (const FileRead &file : scene.parameters().files_read())
       if (!file.is_scene())
         values["contents of '" + file.parameter + "', checksum"] = std::to_string(file.crc32);
-    return values.dump();
+    return values;
   }
 
 
@@ -119,7 +119,8 @@ namespace tread
     std::string texts;
     together([&]() {
       if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-        texts = with_size(parameters()) + with_size(folder.progress()) + with_size(window);
+        texts =
+          with_size(nlohmann::json(parameters()).dump()) + with_size(folder.progress()) + with_size(window);
     });
     together([&]() {
       folder.write_of_all(name, layout, texts, bytes);
@@ -159,12 +160,11 @@ namespace tread
 
   void Checkpoint::require_same_parameters(const std::string &of_checkpoint) const
   {
-    using Values = std::map<std::string, std::string>;
-    Values before, now;
+    const Values now = parameters();
+    Values       before;
     try
       {
         before = nlohmann::json::parse(of_checkpoint).get<Values>();
-        now    = nlohmann::json::parse(parameters()).get<Values>();
       }
     catch (const nlohmann::json::exception &)
       {

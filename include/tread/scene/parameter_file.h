@@ -69,6 +69,9 @@ namespace tread
     /// @param depth of files that include each other. @throws InputError
     void parse(const std::string &file, const unsigned int depth = 0);
     void set(const std::string &setting);
+    /// Give a parameter a value. @param where it stands, for the beginning of a message @throws InputError
+    void    give(const Parameter &parameter, const std::string &value, const std::string &where);
+    Setting setting_of(const Parameter &parameter) const;
 
     mutable ParameterTable declared;
     std::filesystem::path  folder; ///< of the parameter file

@@ -3,10 +3,13 @@
 #define tread_simulation_checkpoint_h
 
 #include <tread/output/run_folder.h>
+#include <tread/scene/parameter_file.h>
 
 #include <mpi.h>
 
+#include <map>
 #include <string>
+#include <vector>
 
 namespace tread
 {
@@ -58,12 +61,13 @@ namespace tread
     /// Parameters with which a run must go on: not those of what is written, of which only the columns of
     /// tables that grow stay, and not those of what is found at its end.
     std::vector<ParameterFile::Setting> settings_that_stay() const;
-    /// They, and checksums of the files that were read, as JSON.
-    std::string parameters() const;
+    using Values = std::map<std::string, std::string>;
+    /// They, and checksums of the files that were read, by their names.
+    Values parameters() const;
     /// Of the run in the folder. @throws InputError. Of rank 0 alone.
     std::vector<ParameterFile::Setting> parameters_of_run() const;
     std::string                         damaged() const; ///< what is said of the file that was read
-    /// @throws InputError with the first one that differs.
+    /// @param of_checkpoint parameters() as JSON @throws InputError with the first one that differs.
     void require_same_parameters(const std::string &of_checkpoint) const;
 
     RunFolder   &folder;
