@@ -138,63 +138,16 @@ namespace tread
       recorded_cells(scene);
     }
 
-    void check_defect(const Scene &scene)
+    /// That a defect lies on the top of an upright wheel's rail.
+    void check_breadth_of_defect(const Scene &scene)
     {
       if (!scene.shapes().defect)
         return;
-      const Defect       &made = *scene.shapes().defect;
-      std::vector<double> begins(made.repeated_at);
-      begins.push_back(made.begin);
-      std::sort(begins.begin(), begins.end());
-      for (std::size_t k = 0; k < begins.size(); ++k)
-        {
-          const double      begin = begins[k], end = begin + made.length, before = begins[k > 0 ? k - 1 : 0];
-          const std::string which =
-            begin == made.begin ? "'Defect/Position (mm)' " : "'Defect/Repeated at (mm)' ";
-          require(begin >= scene.rail_begin() && end <= scene.rail_end(),
-                  "the defect, from " + which + text_in_mm(begin) + " to " + text_in_mm(end) +
-                    " mm, lies outside the rail, which is from " + text_in_mm(scene.rail_begin()) + " to " +
-                    text_in_mm(scene.rail_end()) + " mm");
-          require(k == 0 || begin >= before + made.length - round_off,
-                  "'Defect/Repeated at (mm)': the defects from " + text_in_mm(before) + " and " +
-                    text_in_mm(begin) + " mm overlap, being " + text_in_mm(made.length) + " mm long");
-          const Scene::Range fine = cubes(scene);
-          require(begin == made.begin || is_finest(scene, begin, end),
-                  "'Defect/Repeated at (mm)' " + text_in_mm(begin) +
-                    " lies outside the cubes of 'Mesh/Fine from (mm)' to 'Fine to (mm)', from " +
-                    text_in_mm(fine.begin) + " to " + text_in_mm(fine.end) + " mm");
-        }
-      constexpr double cells_of_ramp = 4.;
-      require(scene.defect.ramp == 0. || scene.defect.ramp >= cells_of_ramp * scene.mesh.finest_cell,
-              "'Defect/Ramp (mm)' " + text_in_mm(scene.defect.ramp) +
-                " is a step between the nodes; at least " +
-                text_in_mm(cells_of_ramp * scene.mesh.finest_cell) +
-                ", four times 'Mesh/Finest cell (mm)', or 0 for none");
-      if (scene.defect.shape == "corrugation")
-        {
-          // Six nodes a wave: fewer make another one of it.
-          constexpr double cells_of_wave = 6.;
-          const double     cell          = is_finest(scene, made.begin, made.begin + made.length)
-                                             ? scene.mesh.finest_cell
-                                             : std::max(scene.mesh.finest_cell, scene.mesh.path_cell);
-          require(
-            scene.defect.wavelength >= cells_of_wave * cell,
-            "'Defect/Wavelength (mm)' " + text_in_mm(scene.defect.wavelength) + " is lost between cells of " +
-              text_in_mm(cell) + " mm along the path; at least " + text_in_mm(cells_of_wave * cell) +
-              ", or finer cells by 'Mesh/Finest cell (mm)', 'Path cell (mm)', 'Fine from (mm)' and 'Fine "
-              "to (mm)'");
-        }
-      const char *of_width = scene.defect.width > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
-      for (const auto &[name, size] :
-           {std::pair("'Defect/Length (mm)'", made.length), std::pair(of_width, made.width)})
-        require(size >= 2. * scene.mesh.finest_cell,
-                std::string(name) + " " + text_in_mm(size) +
-                  " is lost between the nodes; at least twice 'Mesh/Finest cell (mm)', " +
-                  text_in_mm(2. * scene.mesh.finest_cell));
-      const double head = scene.rail.is_block()
-                            ? scene.rail.half_width()
-                            : scene.rail.standard_profile().head_point(scene.rail.half_width())[0];
-      const double edge = std::isinf(made.width) ? 0. : std::abs(made.y_middle) + 0.5 * made.width;
+      const Defect &made = *scene.shapes().defect;
+      const double  head = scene.rail.is_block()
+                             ? scene.rail.half_width()
+                             : scene.rail.standard_profile().head_point(scene.rail.half_width())[0];
+      const double  edge = std::isinf(made.width) ? 0. : std::abs(made.y_middle) + 0.5 * made.width;
       require(edge <= head, "the defect reaches to " + text_in_mm(edge) +
                               " mm beside the rail's middle and the top of the head only to " +
                               text_in_mm(head) + " mm: lower 'Defect/Width (mm)' or 'Lateral position (mm)'");
@@ -298,6 +251,61 @@ namespace tread
                 " must be below 'Motion/Passages', " + std::to_string(scene.motion.passages));
     }
   } // namespace
+
+
+  void check_defect(const Scene &scene)
+  {
+    if (!scene.shapes().defect)
+      return;
+    const Defect       &made = *scene.shapes().defect;
+    std::vector<double> begins(made.repeated_at);
+    begins.push_back(made.begin);
+    std::sort(begins.begin(), begins.end());
+    for (std::size_t k = 0; k < begins.size(); ++k)
+      {
+        const double      begin = begins[k], end = begin + made.length, before = begins[k > 0 ? k - 1 : 0];
+        const std::string which =
+          begin == made.begin ? "'Defect/Position (mm)' " : "'Defect/Repeated at (mm)' ";
+        require(begin >= scene.rail_begin() && end <= scene.rail_end(),
+                "the defect, from " + which + text_in_mm(begin) + " to " + text_in_mm(end) +
+                  " mm, lies outside the rail, which is from " + text_in_mm(scene.rail_begin()) + " to " +
+                  text_in_mm(scene.rail_end()) + " mm");
+        require(k == 0 || begin >= before + made.length - round_off,
+                "'Defect/Repeated at (mm)': the defects from " + text_in_mm(before) + " and " +
+                  text_in_mm(begin) + " mm overlap, being " + text_in_mm(made.length) + " mm long");
+        const Scene::Range fine = cubes(scene);
+        require(begin == made.begin || is_finest(scene, begin, end),
+                "'Defect/Repeated at (mm)' " + text_in_mm(begin) +
+                  " lies outside the cubes of 'Mesh/Fine from (mm)' to 'Fine to (mm)', from " +
+                  text_in_mm(fine.begin) + " to " + text_in_mm(fine.end) + " mm");
+      }
+    constexpr double cells_of_ramp = 4.;
+    require(scene.defect.ramp == 0. || scene.defect.ramp >= cells_of_ramp * scene.mesh.finest_cell,
+            "'Defect/Ramp (mm)' " + text_in_mm(scene.defect.ramp) +
+              " is a step between the nodes; at least " + text_in_mm(cells_of_ramp * scene.mesh.finest_cell) +
+              ", four times 'Mesh/Finest cell (mm)', or 0 for none");
+    if (scene.defect.shape == "corrugation")
+      {
+        // Six nodes a wave: fewer make another one of it.
+        constexpr double cells_of_wave = 6.;
+        const double     cell          = is_finest(scene, made.begin, made.begin + made.length)
+                                           ? scene.mesh.finest_cell
+                                           : std::max(scene.mesh.finest_cell, scene.mesh.path_cell);
+        require(scene.defect.wavelength >= cells_of_wave * cell,
+                "'Defect/Wavelength (mm)' " + text_in_mm(scene.defect.wavelength) +
+                  " is lost between cells of " + text_in_mm(cell) + " mm along the path; at least " +
+                  text_in_mm(cells_of_wave * cell) +
+                  ", or finer cells by 'Mesh/Finest cell (mm)', 'Path cell (mm)', 'Fine from (mm)' and 'Fine "
+                  "to (mm)'");
+      }
+    const char *of_width = scene.defect.width > 0. ? "'Defect/Width (mm)'" : "'Defect/Length (mm)'";
+    for (const auto &[name, size] :
+         {std::pair("'Defect/Length (mm)'", made.length), std::pair(of_width, made.width)})
+      require(size >= 2. * scene.mesh.finest_cell,
+              std::string(name) + " " + text_in_mm(size) +
+                " is lost between the nodes; at least twice 'Mesh/Finest cell (mm)', " +
+                text_in_mm(2. * scene.mesh.finest_cell));
+  }
 
 
   void check_motion(const Scene &scene)
@@ -462,7 +470,7 @@ namespace tread
         require(use == SceneUse::roll || scene.motion.drive != Drive::torque,
                 "'Motion/Drive' cannot be torque where 'Wheelset' has a position and half-space theory "
                 "answers: it takes the creepage that is given");
-        return check_wheelset(scene);
+        return check_wheelset(scene, use);
       }
     require(scene.guidance.kind == Guidance::rigid,
             "'Guidance/Kind' " + name_of(scene.guidance.kind) +
@@ -479,6 +487,7 @@ namespace tread
     if (use == SceneUse::half_space)
       return;
     check_defect(scene);
+    check_breadth_of_defect(scene);
     check_peak_stress(scene);
     scene.mesh.check();
     check_mesh(scene);

@@ -88,19 +88,20 @@ namespace tread
     {
       if (!scene.shapes().defect || scene.defect.shape == "corrugation" || scene.static_load() <= 0.)
         return "";
-      constexpr unsigned int n     = 5; // places over the patch, along and across
-      const Defect          &made  = *scene.shapes().defect;
-      const double           a     = scene.stance().ellipse(scene.static_load()).semi_axis_x;
-      const auto            &patch = scene.shapes().patch;
+      constexpr unsigned int n    = 5; // places over the patch, along and across
+      const Defect          &made = *scene.shapes().defect;
+      const double           a    = scene.stance().ellipse(scene.static_load()).semi_axis_x;
       for (unsigned int number = 0; number < scene.n_wheels(); ++number)
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            if (std::abs(made.height(scene.path_begin(number) + a * (2. * i / (n - 1.) - 1.),
-                                     patch.begin + (patch.end - patch.begin) * j / (n - 1.))) > least_height)
-              return format("the wheel begins on the defect: its patch at rest, around x = %.2f mm, lies in "
-                            "part on it, so that the way into the defect is missing; move "
-                            "'Defect/Position (mm)' or 'Motion/Start (mm)'",
-                            1e3 * scene.path_begin(number));
+        for (const WheelStance::Footprint &patch : scene.stance().footprints())
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              if (std::abs(made.height(scene.path_begin(number) + patch.ahead + a * (2. * i / (n - 1.) - 1.),
+                                       patch.begin + (patch.end - patch.begin) * j / (n - 1.))) >
+                  least_height)
+                return format("the wheel begins on the defect: its patch at rest, around x = %.2f mm, lies "
+                              "in part on it, so that the way into the defect is missing; move "
+                              "'Defect/Position (mm)' or 'Motion/Start (mm)'",
+                              1e3 * (scene.path_begin(number) + patch.ahead));
       return "";
     }
 
@@ -146,14 +147,15 @@ namespace tread
       const double     detail = detail_along(scene), load = scene.static_load();
       if (!(detail > 0. && load > 0.))
         return "";
-      const Defect                *made     = scene.shapes().defect.get();
-      const double                 cell     = made && scene.shapes().is_round()
-                                                ? cell_along(scene, made->begin, made->begin + made->length)
-                                                : cell_along(scene, scene.path_begin(), scene.meshed_end());
-      const reference::RollingCase touching = half_space_case(scene, load, 0.);
-      const double modulus = reference::combine(touching.wheel, touching.rail).hertz_modulus(),
-                   share   = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
-                           (2. * cell * hertz(touching).max_pressure);
+      const Defect *made = scene.shapes().defect.get();
+      const double  cell = made && scene.shapes().is_round()
+                             ? cell_along(scene, made->begin, made->begin + made->length)
+                             : cell_along(scene, scene.path_begin(), scene.meshed_end());
+      const double  modulus =
+                     reference::combine(elastic_of(scene.wheel.material), elastic_of(scene.rail.material))
+                       .hertz_modulus(),
+                   share = dealii::numbers::PI * modulus * std::sqrt(2.) * detail /
+                           (2. * cell * scene.stance().ellipse(load).max_pressure);
       if (!(share > large))
         return "";
       return format(
@@ -171,12 +173,21 @@ namespace tread
       if (!scene.shapes().defect || !misses_defect(scene))
         return "";
       const Defect &made = *scene.shapes().defect;
+      std::string   patches;
+      for (const WheelStance::Footprint &patch : scene.stance().footprints())
+        {
+          patches +=
+            (patches.empty() ? "" : " and ") + format("%.2f to %.2f mm", 1e3 * patch.begin, 1e3 * patch.end);
+          if (std::abs(patch.ahead) >= scene.mesh.finest_cell)
+            patches += format(", %.2f mm %s the axle", 1e3 * std::abs(patch.ahead),
+                              patch.ahead > 0. ? "ahead of" : "behind");
+        }
       return format(
         "the contact does NOT reach the defect, from %.2f to %.2f mm: the wheel rolls from %.2f to %.2f "
-        "mm, and its patch is from y = %.2f to %.2f mm; look at 'Defect/Position (mm)', 'Lateral position "
+        "mm, and its patch is from y = %s; look at 'Defect/Position (mm)', 'Lateral position "
         "(mm)', 'Motion/Start (mm)' and 'Rolled distance (mm)'",
         1e3 * made.begin, 1e3 * (made.begin + made.length), 1e3 * scene.path_begin(),
-        1e3 * scene.meshed_end(), 1e3 * scene.shapes().patch.begin, 1e3 * scene.shapes().patch.end);
+        1e3 * scene.meshed_end(), patches.c_str());
     }
 
     std::string narrow_island(const Scene &scene)
@@ -369,15 +380,21 @@ namespace tread
     constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
     const double           a       = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     double                 largest = 0.;
-    const auto             look = [&](const double cell, const double from, const double to, const bool alike,
+    std::vector<double>    lines;        // across
+    Scene::Range           reach{-a, a}; // from the axle
+    for (const WheelStance::Footprint &patch : scene.stance().footprints())
+      {
+        for (unsigned int line = 0; line < n_across; ++line)
+          lines.push_back(patch.begin + (patch.end - patch.begin) * (line + 0.5) / n_across);
+        reach = {std::min(reach.begin, patch.ahead - a), std::max(reach.end, patch.ahead + a)};
+      }
+    const auto look = [&](const double cell, const double from, const double to, const bool alike,
                           const std::function<double(double, double)> &height) {
       if (!(to > from))
         return;
       const unsigned int n = std::ceil((to - from) / cell), window = std::max(4., std::ceil(a / cell));
-      for (unsigned int line = 0; line < n_across; ++line)
+      for (const double y : lines)
         {
-          const double y = scene.shapes().patch.begin +
-                           (scene.shapes().patch.end - scene.shapes().patch.begin) * (line + 0.5) / n_across;
           // Where the nodes lie is not known: the way between them begins with the defect.
           std::vector<double> squares(n, 0.);
           for (unsigned int k = 0; k < n; ++k)
@@ -410,9 +427,9 @@ namespace tread
         for (const double begin : begins)
           {
             const double cell = cell_along(scene, begin, begin + made->length);
-            look(cell, std::max(begin - 2. * cell, scene.path_begin(scene.last_wheel()) - a),
-                 std::min(begin + made->length + 2. * cell, scene.meshed_end() + a), std::isinf(made->width),
-                 [&](const double x, const double y) { return made->height(x, y); });
+            look(cell, std::max(begin - 2. * cell, scene.path_begin(scene.last_wheel()) + reach.begin),
+                 std::min(begin + made->length + 2. * cell, scene.meshed_end() + reach.end),
+                 std::isinf(made->width), [&](const double x, const double y) { return made->height(x, y); });
           }
       }
     if (!scene.shapes().is_round())
@@ -476,22 +493,23 @@ namespace tread
     const Scene::Range beyond = reach_of(scene, -extremes_of(made.shape).first * made.depth);
     // As wide as the zone of fine cells would be, for what inertia adds to the load.
     constexpr double room = 1.35;
-    const double a = room * scene.stance().ellipse(scene.static_load()).semi_axis_x + scene.mesh.finest_cell +
-                     beyond.begin,
-                 middle     = 0.5 * (scene.shapes().patch.begin + scene.shapes().patch.end),
-                 half_width = room * 0.5 * (scene.shapes().patch.end - scene.shapes().patch.begin) +
-                              scene.mesh.finest_cell + beyond.end;
-    if (std::abs(made.y_middle - middle) > half_width + 0.5 * made.width)
-      return true;
+    const double     a =
+      room * scene.stance().ellipse(scene.static_load()).semi_axis_x + scene.mesh.finest_cell + beyond.begin;
     std::vector<double> begins(made.repeated_at);
     begins.push_back(made.begin);
-    return std::none_of(begins.begin(), begins.end(), [&](const double begin) {
+    const auto is_met = [&](const WheelStance::Footprint &patch, const double path_begin) {
+      const double middle     = 0.5 * (patch.begin + patch.end),
+                   half_width = room * 0.5 * (patch.end - patch.begin) + scene.mesh.finest_cell + beyond.end,
+                   from = path_begin + patch.ahead - a, to = from + scene.motion.meshed_distance() + 2. * a;
+      return std::abs(made.y_middle - middle) <= half_width + 0.5 * made.width &&
+             std::any_of(begins.begin(), begins.end(),
+                         [&](const double begin) { return begin < to && begin + made.length > from; });
+    };
+    for (const WheelStance::Footprint &patch : scene.stance().footprints())
       for (unsigned int number = 0; number < scene.n_wheels(); ++number)
-        if (begin < scene.path_begin(number) + scene.motion.meshed_distance() + a &&
-            begin + made.length > scene.path_begin(number) - a)
-          return true;
-      return false;
-    });
+        if (is_met(patch, scene.path_begin(number)))
+          return false;
+    return true;
   }
 
 

@@ -203,21 +203,6 @@ namespace tread
       return {0., 0.};
     // Along the path the wheel stands x^2 / 2R above the rail.
     const double along = std::sqrt(2. * scene.stance().rolling_radius() * height);
-    // Across, where the gap is larger than the height from here on.
-    constexpr double step   = 0.1e-3; // m
-    const double     least  = scene.shapes().surfaces.gap(scene.shapes().first_contact.y);
-    double           across = 0.;
-    for (const double side : {-1., 1.})
-      {
-        const double edge    = side > 0. ? scene.shapes().patch.end : scene.shapes().patch.begin;
-        double       touched = 0.;
-        for (double beside = 0.; std::abs(edge + side * beside) <= scene.shapes().surfaces.half_width;
-             beside += step)
-          if (const double gap = scene.shapes().surfaces.gap(edge + side * beside) - least;
-              std::isfinite(gap) && gap <= height)
-            touched = beside + step;
-        across = std::max(across, touched);
-      }
-    return {along, across};
+    return {along, scene.stance().reach_beside(height)};
   }
 } // namespace tread

@@ -119,14 +119,18 @@ namespace tread
   void Scene::read(const std::string &file, const std::vector<std::string> &settings, const SceneUse use)
   {
     take(file, settings);
+    const auto made_defect = defect.make(parameters().located(defect.profile_file));
     // A wheelset in a given position has no point of first contact by an upright wheel.
     if (is_positioned())
-      require(!rail.is_meshed(),
-              "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and "
-              "'Motion/Angular velocity (rad per s)' must be left out");
+      {
+        require(!rail.is_meshed(),
+                "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and "
+                "'Motion/Angular velocity (rad per s)' must be left out");
+        made_shapes.defect = made_defect;
+      }
     else
       {
-        made_shapes = make_shapes(*this);
+        made_shapes = make_shapes(*this, made_defect);
         add_patch(made_shapes, *this);
       }
     check_sections(*this, use);

@@ -139,6 +139,20 @@ namespace tread
   }
 
 
+  std::vector<WheelStance::Footprint> PlacedWheel::footprints() const
+  {
+    std::vector<Footprint> all;
+    for (const WheelPatch &patch : sides().front().contact.patches)
+      {
+        const ContactAxes contact_axes = axes(patch);
+        all.push_back({contact_axes.origin[0] + 0.5 * (patch.solution.x_begin + patch.solution.x_end),
+                       contact_axes.origin[1] + patch.solution.y_begin * contact_axes.along[1],
+                       contact_axes.origin[1] + patch.solution.y_end * contact_axes.along[1]});
+      }
+    return all;
+  }
+
+
   std::vector<std::pair<std::string, std::vector<Island>>> PlacedWheel::parts_of_patches() const
   {
     std::vector<std::pair<std::string, std::vector<Island>>> parts;
@@ -303,8 +317,22 @@ namespace tread
     const dealii::Tensor<1, 2> in_section({side * contact_axes.along[1], contact_axes.along[2]});
     const CurveFromAbove      &rail = surfaces.rail();
     const double               s    = rail.parameter(std::clamp(from[0], rail.begin(), rail.end()));
+    const double               below =
+      over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, contact_axes.normal);
     return {arm[0], beside,
-            over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, contact_axes.normal)};
+            below + (patch.is_of_other_wheel ? 0. : lift_above(p, below, contact_axes.normal))};
+  }
+
+
+  double PlacedWheel::lift_above(const dealii::Point<3> &p, const double below, const Vector3 &normal) const
+  {
+    const auto &defect = scene.shapes().defect;
+    if (!defect)
+      return 0.;
+    const dealii::Point<3> on_top(p[0], p[1] + below * normal[1], p[2] + below * normal[2]);
+    const double           angle = scene.rail.angle();
+    return defect->height(on_top[0], scene.rail.in_own_axes(on_top)[1]) *
+           (-std::sin(angle) * normal[1] + std::cos(angle) * normal[2]);
   }
 
 

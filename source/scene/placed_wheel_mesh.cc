@@ -3,6 +3,7 @@
 #include <tread/base/format.h>
 #include <tread/geometry/contact_points.h>
 #include <tread/mesh/profile_block.h>
+#include <tread/mesh/rail_body.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/scene.h>
 
@@ -360,9 +361,17 @@ namespace tread
           const dealii::Point<2> p = section.point(along, behind);
           return in_mesh({x, p[0] + origin, p[1]});
         };
-        return make_profile_block(
+        Body body = make_profile_block(
           {scene.rail_begin(), scene.rail_end(), section.half_width, section.depth, side.is_mirrored, place},
           scene.mesh.coarsest_cell, zones);
+        if (const auto &defect = scene.shapes().defect; defect && !side.is_mirrored)
+          body.to_space = shape_top(
+            [smooth = body.to_space, rail = scene.rail](const dealii::Point<3> &p) {
+              return rail.in_own_axes(smooth(p));
+            },
+            {[defect](const double x, const double y) { return defect->height(x, y); }, scene.rail.angle()},
+            section.depth);
+        return body;
       }
 
       Body rail_of_slices() const

@@ -207,10 +207,10 @@ namespace tread
   } // namespace
 
 
-  SceneShapes make_shapes(const Scene &scene)
+  SceneShapes make_shapes(const Scene &scene, const std::shared_ptr<const Defect> &defect)
   {
     SceneShapes made;
-    made.defect = scene.defect.make(scene.parameters().located(scene.defect.profile_file));
+    made.defect = defect;
     shape_wheel(made, scene);
     scene.rail.is_meshed() ? shape_mesh_rail(made, scene) : shape_rail(made, scene);
     made.first_contact = first_contact(made.surfaces, scene.path_begin());

@@ -8,17 +8,6 @@
 
 namespace tread
 {
-  namespace
-  {
-    /// Position in the rail's own axes, which are inclined with it.
-    dealii::Point<3> in_rail_axes(const Scene &scene, const dealii::Point<3> &p)
-    {
-      const double c = std::cos(scene.rail.angle()), s = std::sin(scene.rail.angle());
-      return {p[0], c * p[1] + s * p[2], -s * p[1] + c * p[2]};
-    }
-  } // namespace
-
-
   double UprightWheel::rolling_radius() const
   {
     const auto &offset = scene.shapes().surfaces.tread_offset;
@@ -44,7 +33,7 @@ namespace tread
   {
     const double beside = p[1] - path_y(scene);
     if (body == rail_body)
-      return {{p[0], beside, scene.shapes().rail_mesh ? depth_in_rail(p) : -in_rail_axes(scene, p)[2]}};
+      return {{p[0], beside, scene.shapes().rail_mesh ? depth_in_rail(p) : -scene.rail.in_own_axes(p)[2]}};
     const double dx = p[0] - scene.path_begin(body - wheel_body(0)), dz = p[2] - scene.axle_height();
     return {{scene.wheel.radius * std::atan2(dx, -dz), beside, scene.wheel.radius - std::hypot(dx, dz)}};
   }
@@ -115,6 +104,31 @@ namespace tread
         lines.emplace_back(0.5 * ((1. - part) * patch.begin + (1. + part) * patch.end), 1. - part * part);
       }
     return lines;
+  }
+
+
+  std::vector<WheelStance::Footprint> UprightWheel::footprints() const
+  {
+    return {{0., scene.shapes().patch.begin, scene.shapes().patch.end}};
+  }
+
+
+  double UprightWheel::reach_beside(const double height) const
+  {
+    constexpr double       step     = 0.1e-3; // m
+    const RunningSurfaces &surfaces = scene.shapes().surfaces;
+    const PatchExtent     &patch    = scene.shapes().patch;
+    const double           least    = surfaces.gap(scene.shapes().first_contact.y);
+    double                 reach    = 0.;
+    for (const double side : {-1., 1.})
+      {
+        const double edge = side > 0. ? patch.end : patch.begin;
+        for (double beside = 0.; std::abs(edge + side * beside) <= surfaces.half_width; beside += step)
+          if (const double gap = surfaces.gap(edge + side * beside) - least;
+              std::isfinite(gap) && gap <= height)
+            reach = std::max(reach, beside + step);
+      }
+    return reach;
   }
 
 

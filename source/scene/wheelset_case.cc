@@ -191,7 +191,7 @@ namespace tread
   }
 
 
-  void check_wheelset(const Scene &scene)
+  void check_wheelset(const Scene &scene, const SceneUse use)
   {
     check_guidance(scene);
     scene.motion.check();
@@ -206,8 +206,10 @@ namespace tread
     require(scene.wheel.deviation.empty(),
             "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread positions solves wheels "
             "that are not round, and an upright wheel may have one");
-    require(scene.defect.shape == "none",
+    require(!scene.shapes().defect || use == SceneUse::roll,
             "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
+    require(!scene.shapes().defect || !scene.rail.is_sliced(),
+            "'Defect/Shape' must be none over 'Rail/Shape' slices, which hold the surface as it is");
     require(scene.further_wheels.distances.empty(),
             "'Further wheels/Distances (mm)' must be empty where 'Wheelset' has a position");
     require(scene.motion.angular_velocity || scene.motion.creepage,
@@ -255,6 +257,7 @@ namespace tread
             "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
     without(!scene.track.has_supports(), "'Track/Foundation' must be rigid, co-running or beam");
     check_track(scene);
+    check_defect(scene);
     without(!scene.wheel.is_full(), "'Wheel/Shape' must be sector");
     require(scene.motion.drive != Drive::torque || !scene.wheelset.has_flexible_axle(),
             "'Motion/Drive' cannot be torque on a flexible axle ('Wheelset/Axle torsional stiffness (MN m "
@@ -309,11 +312,8 @@ namespace tread
   WheelRolling wheel_rolling(const Scene &scene, const double x)
   {
     WheelRolling rolling;
-    const auto   elastic = [](const MaterialSection &material) -> reference::Elastic {
-      return {material.elastic().young_modulus, material.elastic().poisson_ratio};
-    };
-    rolling.wheel = elastic(scene.wheel.material);
-    rolling.rail  = elastic(scene.rail.material);
+    rolling.wheel = elastic_of(scene.wheel.material);
+    rolling.rail  = elastic_of(scene.rail.material);
     set_friction(rolling, scene, x);
     if (!scene.contact.friction_places.empty())
       rolling.friction_along = [&scene, x](const double ahead) {

@@ -65,12 +65,8 @@ namespace tread
     }
 
 
-    /// The same where half-space theory knows steady rolling. @param patch of the half-space; @returns why
-    /// nothing is compared, or nothing
-    std::string compare_with_steady_rolling(const Scene            &scene,
-                                            Summary                &summary,
-                                            const ContactAnswer    &answer,
-                                            std::vector<PatchNode> &patch)
+    /// Why rolling does not become steady, or nothing.
+    std::string nothing_steady(const Scene &scene)
     {
       if (scene.shapes().defect)
         return "no comparison with steady rolling: there is a defect on the rail";
@@ -79,6 +75,19 @@ namespace tread
       if (scene.shapes().has_uneven_mesh())
         return "no comparison with steady rolling: the running surface of 'Rail/Mesh file' changes along the "
                "path";
+      return "";
+    }
+
+
+    /// Compare with Kalker where half-space theory knows steady rolling. @param patch of the half-space;
+    /// @returns why nothing is compared, or nothing
+    std::string compare_with_steady_rolling(const Scene            &scene,
+                                            Summary                &summary,
+                                            const ContactAnswer    &answer,
+                                            std::vector<PatchNode> &patch)
+    {
+      if (const std::string unsteady = nothing_steady(scene); !unsteady.empty())
+        return unsteady;
       if (!(answer.force[2] > 0.))
         return "";
       if ((!scene.contact.friction_pressures.empty() || scene.contact.varies_across()) &&
@@ -133,9 +142,10 @@ namespace tread
     }
 
 
-    /// The first entries of the summary of a wheelset in a given position, beside the half-space's. @returns
-    /// a table of its patches for the screen, and what the half-space cannot tell of them.
-    std::string add_wheelset(const RunAnswer &run, Summary &summary)
+    /// The first entries of the summary of a wheelset in a given position. @param has_half_space whether the
+    /// half-space's stand beside them. @returns a table of its patches for the screen, and what the
+    /// half-space cannot tell of them.
+    std::string add_wheelset(const RunAnswer &run, Summary &summary, const bool has_half_space)
     {
       const Model        &model            = run.model;
       const Scene        &scene            = model.scene;
@@ -152,7 +162,7 @@ namespace tread
       summary.set("free_rolling_creepage", wheel.free_creepage);
       const double rail_y = half_space_wheel.surfaces.rail_origin_y();
       summary.set("patches", patches_as_json(computed.patches, rail_y, scene));
-      if (!model.wheelset.problem().empty())
+      if (!has_half_space)
         {
           summary.show("normal_force_N", "vertical force, kN", 1e-3, force[2]);
           summary.show("longitudinal_force_N", "longitudinal force, kN", 1e-3, force[0]);
@@ -187,11 +197,13 @@ namespace tread
     Compared            compared;
     if (scene.is_positioned())
       {
-        compared.by_patch = add_wheelset(run, summary);
-        if (run.model.wheelset.problem().empty())
+        compared.note             = nothing_steady(scene);
+        const bool has_half_space = compared.note.empty() && run.model.wheelset.problem().empty();
+        compared.by_patch         = add_wheelset(run, summary, has_half_space);
+        if (has_half_space)
           compared.reference_patch = table_nodes(run.model.wheelset.placed());
         if (const std::string varies = friction_varies_at_end(scene, force[2] / scene.wheelset.n_wheels());
-            !varies.empty())
+            has_half_space && !varies.empty())
           compared.note = "the half-space beside is in steady rolling, but " + varies;
         return compared;
       }

@@ -21,7 +21,10 @@ namespace tread
   void check_numerics(const Scene &scene);
   void check_friction_by_temperature(const Scene &scene);
   void check_track(const Scene &scene);
-  void check_wheelset(const Scene &scene);
+  /// Where it begins and ends, and that cells can show it; not how far it reaches across.
+  void check_defect(const Scene &scene);
+  /// @pre scene.is_positioned()
+  void check_wheelset(const Scene &scene, const SceneUse use);
   /// What finite elements need beyond the half-space's answer. @pre scene.is_positioned()
   void check_placed_mesh(const Scene &scene);
   /// Of a rail from a mesh file.

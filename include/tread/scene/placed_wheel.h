@@ -11,6 +11,7 @@
 #include <tread/scene/touched_pieces.h>
 #include <tread/scene/wheel_stance.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -78,7 +79,12 @@ namespace tread
     /// Through the main patch, or the most loaded touch of slices that is nearest.
     bool   is_on_path(const dealii::Point<3> &p, const double cell) const override;
     double factor_across(const Vector3 &place) const override;
-    std::vector<std::pair<double, double>>                   loaded_lines() const override;
+    std::vector<std::pair<double, double>> loaded_lines() const override;
+    std::vector<Footprint>                 footprints() const override;
+    double                                 reach_beside(const double) const override
+    {
+      return std::numeric_limits<double>::infinity(); // the surfaces lie close at other angles, too
+    }
     std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const override;
     /// Patches that climb.
     std::vector<std::string> warnings() const override
@@ -151,6 +157,9 @@ namespace tread
     const WheelOnRail surfaces;
 
   private:
+    /// By how much the defect lifts the surface over a place that lies `below` the smooth one, along its
+    /// normal (m).
+    double lift_above(const dealii::Point<3> &p, const double below, const Vector3 &normal) const;
     /// Of slices, where a place is in the piece whose path is nearest.
     Place place_in_slices(const dealii::Point<3> &p) const;
 

@@ -35,6 +35,8 @@ namespace tread
     bool               is_on_path(const dealii::Point<3> &p, const double cell) const override;
     double             factor_across(const Vector3 &place) const override;
     std::vector<std::pair<double, double>>                   loaded_lines() const override;
+    std::vector<Footprint>                                   footprints() const override;
+    double                                                   reach_beside(const double height) const override;
     std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const override;
     ContactNodeState in_contact_axes(const ContactNodeState &state, const double) const override
     {

@@ -85,6 +85,15 @@ namespace tread
     virtual double factor_across(const Vector3 &place) const = 0;
     /// Lines of the rail under the patches: y (m), and by how much each carries, in any unit.
     virtual std::vector<std::pair<double, double>> loaded_lines() const = 0;
+    /// A patch of the own wheel on the smooth rail at the start: how far it is ahead of the axle, and y in
+    /// the mesh from edge to edge, m.
+    struct Footprint
+    {
+      double ahead, begin, end;
+    };
+    virtual std::vector<Footprint> footprints() const = 0;
+    /// How far beside these patches the wheel touches a rail that is higher by this (m); infinite: anywhere.
+    virtual double reach_beside(const double height) const = 0;
     /// The parts of the patches on the way, with the words for each patch.
     virtual std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const = 0;
 

@@ -183,6 +183,13 @@ namespace tread
   }
 
 
+  dealii::Point<3> RailSection::in_own_axes(const dealii::Point<3> &p) const
+  {
+    const double c = std::cos(angle()), s = std::sin(angle());
+    return {p[0], c * p[1] + s * p[2], -s * p[1] + c * p[2]};
+  }
+
+
   double RailSection::half_width() const
   {
     return is_block() ? 0.5 * block_width : standard_profile().shoulder_length();

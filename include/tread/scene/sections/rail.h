@@ -108,6 +108,8 @@ namespace tread
     RailProfile standard_profile() const;
     /// The top leans to the gauge side, y < 0, by this, rad.
     double angle() const;
+    /// A place of the scene in the rail's own axes, which are inclined with it (m).
+    dealii::Point<3> in_own_axes(const dealii::Point<3> &p) const;
     /// Of a head, a full section or a block: half its width at the top, and its thickness there.
     double half_width() const;
     double thickness() const;
