@@ -37,6 +37,7 @@ namespace tread
       "Roll (mrad)", roll,
       "Roll of the wheelset, positive when the side of the modelled wheel goes down. Up to 5 degrees.",
       Number());
+    // What stands above puts the wheel there.
     section.all_need({in_a_position()});
     section.add("Both wheels", both_wheels,
                 "true: both wheels are meshed, on one axle and over both rails. Mass, inertia, load and "
