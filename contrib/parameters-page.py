@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""doc/parameters.md: every parameter with its default and meaning, as `tread parameters` says them.
+"""doc/parameters.md: every parameter with its default, its meaning and what it needs, as `tread parameters` says them.
 
 With --check the page is only compared; the exit code is 1 if it is not current.
 """
@@ -20,6 +20,7 @@ A parameter file has sections with one parameter a line:
 On the command line the same is `-s "Wheel/Radius (mm)=460"`, which has the last word. A line `include NAME` reads another file first, relative to the
 folder of the file it stands in; what the file itself sets overrides it. One file, and the command line, sets each parameter once. Files with measured profiles are looked for in the present folder and beside
 the file that the program was given. What is not set has the default given here.
+What has an effect only where another parameter has some value says what it needs; set elsewhere, it is named by a warning.
 
 This page is written by `contrib/parameters-page.py`.
 """

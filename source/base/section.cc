@@ -165,10 +165,14 @@ namespace tread
                         const std::string                              &meaning,
                         const std::function<void(const std::string &)> &take)
   {
-    table.values.declare_entry(parameter, value, allowed, meaning);
+    std::vector<Need> all = of_all;
+    all.insert(all.end(), of_next.begin(), of_next.end());
+    of_next.clear();
+    const Parameter record{name, parameter, value, meaning, allowed.copy(), all};
+    table.values.declare_entry(parameter, value, allowed, record.documentation());
     if (take)
       table.values.add_action(parameter, take);
     if (!table.find(name + "/" + parameter)) // laws of one kind may share some
-      table.declared.push_back({name, parameter, value, meaning, allowed.copy()});
+      table.declared.push_back(record);
   }
 } // namespace tread

@@ -385,14 +385,6 @@ namespace tread
   }
 
 
-  bool ParameterFile::same_value(const std::string &a, const std::string &b)
-  {
-    char        *end_a, *end_b;
-    const double number_a = std::strtod(a.c_str(), &end_a), number_b = std::strtod(b.c_str(), &end_b);
-    return a == b || (!a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && number_a == number_b);
-  }
-
-
   ParameterFile::Setting ParameterFile::setting_of(const Parameter &parameter) const
   {
     return {parameter.path(), declared.value(parameter), given.count(parameter.path()) > 0};
@@ -403,8 +395,8 @@ namespace tread
   {
     std::vector<Setting> changed;
     for (const Parameter &parameter : declared.parameters())
-      if (const Setting setting = setting_of(parameter); !same_value(setting.value, parameter.normal))
-        changed.push_back(setting);
+      if (declared.is_changed(parameter))
+        changed.push_back(setting_of(parameter));
     return changed;
   }
 
@@ -452,7 +444,7 @@ namespace tread
     Json sections = Json::object();
     for (const Parameter &parameter : declared.parameters())
       {
-        Json schema{{"description", parameter.meaning}};
+        Json schema{{"description", parameter.documentation()}};
         schema.update(parameter.allowed->schema());
         schema["default"]                           = parameter.allowed->value(parameter.normal);
         sections[parameter.section][parameter.name] = std::move(schema);

@@ -182,7 +182,7 @@ namespace tread
     for (const auto &[name, text] : all)
       {
         const auto old_value = value(before, name), new_value = value(now, name);
-        require(old_value && new_value && ParameterFile::same_value(*old_value, *new_value),
+        require(old_value && new_value && ParameterTable::same_value(*old_value, *new_value),
                 "--resume: the checkpoint was made with other parameters: '" + name + "' " +
                   in_words(old_value) + ", now " + in_words(new_value) +
                   (name == rolled_distance ? "; a run can be made longer if it began with a 'Motion/Longest "
@@ -226,7 +226,7 @@ namespace tread
       const std::string run  = "--resume: the run in '" + folder.path("") + "' ",
                         anew = "; without --resume it starts anew";
       for (const ParameterFile::Setting &setting : now)
-        require(ParameterFile::same_value(before.at(setting.path), ParameterFile::as_read(setting.value)),
+        require(ParameterTable::same_value(before.at(setting.path), ParameterFile::as_read(setting.value)),
                 run + "is complete, and was made with '" + setting.path + "' " + before.at(setting.path) +
                   ", now " + setting.value + anew);
       const FilesCompared files = compare_files(

@@ -74,7 +74,7 @@ namespace tread
               }
           const bool may_be_unlike = path.starts_with("Defect/") || path.starts_with("Output/") ||
                                      path.starts_with("Wheel/Deviation") || path == "Scene/Title";
-          if (!may_be_unlike && !ParameterFile::same_value(of_run[i].value, of_twin[i].value))
+          if (!may_be_unlike && !ParameterTable::same_value(of_run[i].value, of_twin[i].value))
             throw InputError("no smooth twin: '" + path + "' is '" + of_run[i].value + "' in " + run +
                              " and '" + of_twin[i].value + "' in " + twin);
         }
@@ -90,7 +90,7 @@ namespace tread
                "' is not known: parameters.prm of one of them does not say what it contained";
       const auto of_twin_is = [&](const std::string &path, const std::string &value) {
         return std::any_of(of_twin.begin(), of_twin.end(), [&](const ParameterFile::Setting &parameter) {
-          return parameter.path == path && ParameterFile::same_value(parameter.value, value);
+          return parameter.path == path && ParameterTable::same_value(parameter.value, value);
         });
       };
       // See settles().

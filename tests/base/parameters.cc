@@ -214,6 +214,78 @@ namespace base_parameters
       }
     check.that("a unit that nobody knows is refused", refused);
   }
+
+  void check_needs(tests::Check &check)
+  {
+    double         a = 0., b = 1.;
+    std::string    kind = "none";
+    ParameterTable table;
+    {
+      Section section(table, "Own");
+      section.add("Kind", kind, "One of some.", OneOf({"none", "round", "square", "long"}));
+      section.add("Free", a, "Always.", Number());
+      section.all_need({{"Own/Kind", {}, "a shape"}});
+      section.needs(Need("Own/Kind", {"round", "square", "long"}).or_else({section.path("Free"), {"1"}}))
+        .add("Size (mm)", a, "Of it.", Number());
+      section.needs({"Other/Mass (kg)", {}, "above 0"}).add("Edges", b, "Of it.", Number());
+      section.add("Colour", b, "Of it.", Number());
+      section.all_need({});
+      section
+        .needs(Need("Own/Kind", {"round"}, "round, or 1, with a mass")
+                 .or_has("Own/Free", {"1"})
+                 .and_has("Other/Mass (kg)", {}))
+        .add("Turns", b, "Of it.", Number());
+      section.needs(Need::of_fact("Own/Kind", "that pleases", "pleases"))
+        .add("Pleasure", b, "Of it.", Number());
+      section.needs({"Own/Nothing", {"1"}}).add("Lost", b, "Of it.", Number());
+    }
+    {
+      Section section(table, "Other");
+      section.add("Mass (kg)", a, "Its mass.", Number());
+    }
+    const auto documented = [&](const std::string &path) {
+      return table.find(path)->documentation();
+    };
+    check.that("what needs nothing says nothing", documented("Own/Free") == "Always.");
+    check.that("the narrowest need of a parameter is said, with what may take its place",
+               documented("Own/Size (mm)") ==
+                 "Of it. Needs 'Own/Kind' round, square or long, or 'Own/Free' 1.");
+    check.that("several are",
+               documented("Own/Edges") == "Of it. Needs 'Own/Kind' a shape and 'Other/Mass (kg)' above 0.");
+    check.that("those of all", documented("Own/Colour") == "Of it. Needs 'Own/Kind' a shape.");
+
+    const auto unmet = [&](const std::string &path, const bool pleases = false) {
+      const Need *const need = table.unmet_need(
+        *table.find("Own/" + path), [&](const std::string &fact) { return fact == "pleases" && pleases; });
+      return need ? need->in_words() : "";
+    };
+    const auto set = [&](const std::string &path, const std::string &value) {
+      table.set(*table.find(path), value);
+    };
+    check.that("it has an effect without a need", unmet("Free").empty());
+    check.that("the first unmet need is told", unmet("Edges") == "'Own/Kind' a shape");
+    set("Own/Kind", "long");
+    check.that("any other value than the usual one", unmet("Colour").empty());
+    check.that("then the next one is", unmet("Edges") == "'Other/Mass (kg)' above 0");
+    set("Other/Mass (kg)", "0.00");
+    check.that("the same number is no other value", unmet("Edges") == "'Other/Mass (kg)' above 0");
+    set("Other/Mass (kg)", "2");
+    check.that("both are met", unmet("Edges").empty());
+    check.that("one of two and a third: not yet", unmet("Turns") == "'Own/Kind' round, or 1, with a mass");
+    set("Own/Free", "1");
+    check.that("by the other one", unmet("Turns").empty());
+    set("Other/Mass (kg)", "0");
+    check.that("but not without the third", unmet("Turns") == "'Own/Kind' round, or 1, with a mass");
+    set("Own/Kind", "none");
+    check.that("what takes the place of a need leaves that of all",
+               unmet("Size (mm)") == "'Own/Kind' a shape");
+    check.that("a fact", unmet("Pleasure", true).empty() && unmet("Pleasure") == "'Own/Kind' that pleases");
+    check.that("a parameter that there is not",
+               !tests::complaint<std::logic_error>([&] { unmet("Lost"); }).empty());
+    check.that("the same number in other words", ParameterTable::same_value("5", "5.0") &&
+                                                   !ParameterTable::same_value("5", "5 a") &&
+                                                   !ParameterTable::same_value("", "0"));
+  }
 } // namespace base_parameters
 
 
@@ -221,4 +293,5 @@ TREAD_TEST(base_parameters)(tests::Check &check, const tests::Arguments &)
 {
   base_parameters::check_kinds(check);
   base_parameters::check_section(check);
+  base_parameters::check_needs(check);
 }

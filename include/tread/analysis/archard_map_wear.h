@@ -23,14 +23,15 @@ namespace tread
 
     static void declare(Section &section)
     {
-      section.declare(
+      const Need chosen(section.path("Wear law"), {name});
+      section.needs(chosen).declare(
         "Map slip speeds (m per s)", "", ListOf(Number(0., 1e3), 0, 100),
         "Of 'Wear law' Archard map: borders between ranges of the slip speed, from low to high.");
-      section.declare(
+      section.needs(chosen).declare(
         "Map pressures over hardness", "", ListOf(Number(0., 100.), 0, 100),
         "Of 'Wear law' Archard map: borders between ranges of the pressure over 'Hardness (MPa)', "
         "from low to high.");
-      section.declare(
+      section.needs(chosen).declare(
         "Map wear coefficients", "", ListOf(Number(0., 1.), 0, 10201),
         "Of 'Wear law' Archard map: those of all ranges of slip speed at the lowest pressures, then "
         "those at the next ones, and so on.");

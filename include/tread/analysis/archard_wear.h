@@ -15,12 +15,12 @@ namespace tread
 
     static void declare(Section &section)
     {
-      section.declare(
-        "Wear coefficient", "1e-4", Number(1e-12, 1.),
-        "Of 'Wear law' Archard: volume times hardness over normal force and distance. Measured "
-        "ones of rail steel differ by a factor of a hundred with slip, pressure and lubrication.");
-      section.declare("Hardness (MPa)", "2800", Number(100., 1e5),
-                      "Of 'Wear law' Archard, of the softer body.");
+      section.needs({section.path("Wear law"), {name}})
+        .declare("Wear coefficient", "1e-4", Number(1e-12, 1.),
+                 "Of 'Wear law' Archard: volume times hardness over normal force and distance. Measured "
+                 "ones of rail steel differ by a factor of a hundred with slip, pressure and lubrication.");
+      section.needs({section.path("Wear law"), {name, "Archard map"}})
+        .declare("Hardness (MPa)", "2800", Number(100., 1e5), "Of 'Wear law' Archard, of the softer body.");
     }
 
     static std::shared_ptr<const WearLaw> make(const dealii::ParameterHandler &section)

@@ -16,8 +16,9 @@ namespace tread
 
     static void declare(Section &section)
     {
-      section.declare("Wear per work (mm3 per kJ)", "1", Number(1e-9, 1e6),
-                      "Of 'Wear law' friction work: volume that each surface loses.");
+      section.needs({section.path("Wear law"), {name}})
+        .declare("Wear per work (mm3 per kJ)", "1", Number(1e-9, 1e6),
+                 "Of 'Wear law' friction work: volume that each surface loses.");
     }
 
     static std::shared_ptr<const WearLaw> make(const dealii::ParameterHandler &section)

@@ -56,6 +56,23 @@ namespace tread
     Section(const Section &)            = delete;
     Section &operator=(const Section &) = delete;
 
+    /// Section/Name of one of its parameters.
+    std::string path(const std::string &parameter) const
+    {
+      return name + "/" + parameter;
+    }
+    /// What all parameters need that are declared from here on, in place of what was said before.
+    void all_need(const std::vector<Need> &needs)
+    {
+      of_all = needs;
+    }
+    /// What the next parameter needs besides.
+    Section &needs(const Need &need)
+    {
+      of_next.push_back(need);
+      return *this;
+    }
+
     /// @param value in SI units; what it is now is the default. @param range in the unit of the file.
     void add(const std::string &name, double &value, const std::string &meaning, const Number &range);
     /// A list of numbers, separated by commas; it may be empty if it is so by default. @param range of each
@@ -134,6 +151,7 @@ namespace tread
   private:
     ParameterTable   &table;
     const std::string name;
+    std::vector<Need> of_all, of_next;
   };
 } // namespace tread
 

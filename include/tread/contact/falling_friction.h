@@ -19,21 +19,26 @@ namespace tread
 
     static void declare(Section &section)
     {
+      // The law that is there if nothing is said is Coulomb's.
+      const Need falls(section.path("Friction law"), {}, "one that falls"),
+        remembers = Need::of_fact(section.path("Friction memory (mm)"), "above 0", "memory of friction");
       // Polach's A = 0.4 and B = 0.6 s/m for a dry rail, with the usual friction coefficient 0.5.
-      section.declare("Kinetic friction coefficient", "0.2", Number(0., 2.),
-                      "Of laws that fall: at slip speeds far above the one below. Not above the "
-                      "friction coefficient.");
-      section.declare("Falling slip speed (m per s)", "1.67", Number(1e-6, 1e6),
-                      "Of laws that fall: where 63 % of the fall is over (falling, Stribeck), half of it "
-                      "(rational) or all of it (linear).");
-      section.declare(
+      section.needs(falls).declare("Kinetic friction coefficient", "0.2", Number(0., 2.),
+                                   "Of laws that fall: at slip speeds far above the one below. Not above the "
+                                   "friction coefficient.");
+      section.needs(falls).declare(
+        "Falling slip speed (m per s)", "1.67", Number(1e-6, 1e6),
+        "Of laws that fall: where 63 % of the fall is over (falling, Stribeck), half of it "
+        "(rational) or all of it (linear).");
+      section.needs(falls).declare(
         "Friction memory (mm)", automatic, WordOrNumber(automatic, Number(0., 10.)),
         "Of laws that fall: a node's coefficient follows its slip speed over this way of "
         "slip. 0: at once, so that under high pressure slip begins to oscillate by itself. automatic: the "
         "shortest way that keeps slip from it, some micrometres, by load, law and creepage; 0 where none is "
         "needed.");
-      section.declare("Least speed of memory (m per s)", "0.001", Number(0., 1e3),
-                      "Of laws that fall: nodes that slip more slowly forget at this speed.");
+      section.needs(falls).needs(remembers).declare(
+        "Least speed of memory (m per s)", "0.001", Number(0., 1e3),
+        "Of laws that fall: nodes that slip more slowly forget at this speed.");
     }
 
     double coefficient(const double slip_speed) const override

@@ -42,10 +42,8 @@ namespace tread
     std::vector<Setting> changed_values() const;
     /// What is read of a value that stands in a parameter file, where # begins a comment; -s takes all of it.
     static std::string as_read(std::string value);
-    /// Whether two texts are the same, or the same number.
-    static bool same_value(const std::string &a, const std::string &b);
 
-    /// All parameters with their values, units, ranges and meaning, as a parameter file.
+    /// All parameters with their values, units, ranges, meaning and needs, as a parameter file.
     void print(std::ostream &out, const bool with_documentation) const;
     /// The same as deal.II's JSON: of each the value, the default, the documentation and the pattern.
     void print_json(std::ostream &out) const;

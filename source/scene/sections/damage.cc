@@ -7,13 +7,15 @@ namespace tread
 {
   void DamageSection::declare(ParameterTable &table)
   {
-    Section section(table, "Damage");
+    Section    section(table, "Damage");
+    const Need by_temperature("Contact/Friction temperatures (C)", {}, "given");
 
     section.add(
       "Record", record,
       "true: rail_surface_damage.csv and wheel_surface_damage.csv have, for each place of both surfaces, "
       "frictional work, slip, largest pressure and shear stress, passages, flash temperature and "
       "wear of all steps; doc/damage.md.");
+    section.all_need({{"Damage/Record", {"true"}}});
     section.choose("Wear law", wear_law, wear_laws(),
                    "What a surface loses where the other one slides over it.");
     declare_wear_laws(section);
@@ -26,14 +28,16 @@ namespace tread
       "Of the heat of friction, the rest flows into the rail. automatic: so that both surfaces have one "
       "temperature, half for like steels.",
       Number(0., 1.));
-    section.add("Rail temperature (C)", rail_temperature,
-                "Of the rail before the wheel comes, for 'Contact/Friction temperatures (C)'.",
-                Number(-100., 1000.));
-    section.add(
-      "Wheel temperature (C)", wheel_temperature,
-      "Of the wheel's surface before it comes into contact, likewise, as by braking on the tread. "
-      "Surfaces of unlike temperature take one between in the patch at once, by their effusivities.",
-      Number(-100., 1000.));
+    section.all_need({});
+    section.needs(by_temperature)
+      .add("Rail temperature (C)", rail_temperature,
+           "Of the rail before the wheel comes, for 'Contact/Friction temperatures (C)'.",
+           Number(-100., 1000.));
+    section.needs(by_temperature)
+      .add("Wheel temperature (C)", wheel_temperature,
+           "Of the wheel's surface before it comes into contact, likewise, as by braking on the tread. "
+           "Surfaces of unlike temperature take one between in the patch at once, by their effusivities.",
+           Number(-100., 1000.));
     section.add("Shear strength (MPa)", shear_strength,
                 "Yield stress in shear of the rail, for the surface fatigue index and the shakedown map. 0: "
                 "'Rail/Yield stress (MPa)' over the root of 3 where that is given, else there are none.",

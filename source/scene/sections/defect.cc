@@ -177,6 +177,14 @@ namespace tread
     Section section(table, "Defect");
 
     section.choose("Shape", shape, defect_shapes());
+    std::vector<std::string> any;
+    for (const DefectShape &entry : defect_shapes())
+      if (entry.name != "none")
+        any.push_back(entry.name);
+    const Need is_there("Defect/Shape", any), a_dip("Defect/Shape", {"dip"}),
+      of_file("Defect/Shape", {"profile", "map"});
+    // Without a defect they say where the region lies.
+    section.all_need({Need(is_there).or_else({"Peak stress/Region", {"trailing edge"}})});
     section.add("Position (mm)", position,
                 "x of the leading edge of the defect. 'Motion/Start' and 'Rolled distance' say where the "
                 "wheel starts and ends.",
@@ -189,6 +197,7 @@ namespace tread
       "Width (mm)", width,
       "Width of the defect across the rail. 0: a dip is as wide as it is long, a map as in its file.",
       Number(0., 200.));
+    section.all_need({is_there});
     section.add("Depth (mm)", depth,
                 "Depth of the deepest point; of corrugation, from crests to troughs. A profile or a map is "
                 "scaled to it; 0: as in the file.",
@@ -196,18 +205,20 @@ namespace tread
     section.add("Lateral position (mm)", lateral_position,
                 "y of the middle of the defect, along the rail's top; the gauge side is y < 0.",
                 Number(-50., 50.));
-    section.add("Rounded leading edge (mm)", leading_rounding,
-                "Length over which the kink at the beginning of a dip is rounded. 0: a sharp edge.",
-                Number(0., 1000.));
-    section.add("Rounded trailing edge (mm)", trailing_rounding,
-                "Length over which the kink at the end of a dip is rounded. 0: a sharp edge.",
-                Number(0., 1000.));
-    section.add("Wavelength (mm)", wavelength, "Wavelength of corrugation.", Number(0., 1000.));
-    section.add("Ramp (mm)", ramp,
-                "Length over which the heights of a profile, a map or corrugation grow from 0 at the "
-                "beginning and fade to 0 at the end. 0: none.",
-                Number(0., 1e4));
-    section.add(
+    section.needs(a_dip).add(
+      "Rounded leading edge (mm)", leading_rounding,
+      "Length over which the kink at the beginning of a dip is rounded. 0: a sharp edge.", Number(0., 1000.));
+    section.needs(a_dip).add("Rounded trailing edge (mm)", trailing_rounding,
+                             "Length over which the kink at the end of a dip is rounded. 0: a sharp edge.",
+                             Number(0., 1000.));
+    section.needs({"Defect/Shape", {"corrugation"}})
+      .add("Wavelength (mm)", wavelength, "Wavelength of corrugation.", Number(0., 1000.));
+    section.needs({"Defect/Shape", {"profile", "corrugation", "map"}})
+      .add("Ramp (mm)", ramp,
+           "Length over which the heights of a profile, a map or corrugation grow from 0 at the "
+           "beginning and fade to 0 at the end. 0: none.",
+           Number(0., 1e4));
+    section.needs(of_file).add(
       "Profile file", profile_file,
       "Of a profile: columns x and z in mm, z up; depth is counted from the straight line between the ends, "
       "with a Ramp from the one that fits best. Of a map: a table with a row of names, x_mm, y_mm and z_mm, "
@@ -216,8 +227,10 @@ namespace tread
       "the middle of the rail's top, the first x lies at Position. Looked for in the present folder and "
       "beside the parameter file.",
       AnyText());
-    section.choose("Lateral law", lateral_law, "Of a profile or corrugation.");
-    section.add("Reversed", reversed, "true: a profile or a map is rolled over from its other end.");
+    section.needs({"Defect/Shape", {"profile", "corrugation"}})
+      .choose("Lateral law", lateral_law, "Of a profile or corrugation.");
+    section.needs(of_file).add("Reversed", reversed,
+                               "true: a profile or a map is rolled over from its other end.");
     section.add("Repeated at (mm)", repeated_at,
                 "x of the leading edges of further defects of the same shape, separated by commas, at least "
                 "the defect's length apart. Defects that differ fit into one map.",

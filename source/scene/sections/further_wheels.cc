@@ -21,11 +21,11 @@ namespace tread
       "same rail at the same time. A distance of whole finest cells gives each the same mesh. "
       "Empty: there is one wheel.",
       Number(tiny, 1e5), most_wheels);
-    section.add(
-      "Traction coefficients", traction_coefficients,
-      "One for each further wheel, separated by commas. Empty: that of the first one. Without meaning "
-      "where 'Motion/Creepage' prescribes the motion of all wheels.",
-      Number(-2., 2.), most_wheels);
+    section.needs(Need("Motion/Creepage", {"predicted"}).or_else({"Motion/Drive", {"torque"}}))
+      .add("Traction coefficients", traction_coefficients,
+           "One for each further wheel, separated by commas. Empty: that of the first one. Without meaning "
+           "where 'Motion/Creepage' prescribes the motion of all wheels.",
+           Number(-2., 2.), most_wheels);
   }
 
 

@@ -16,39 +16,48 @@ namespace tread
 
   void GuidanceSection::declare(ParameterTable &table)
   {
-    Section section(table, "Guidance");
+    Section    section(table, "Guidance");
+    const Need on_springs("Guidance/Kind", {"springs"});
 
     section.choose("Kind", kind,
                    "How a wheelset in a position ('Wheelset') moves across its track and yaws:");
-    section.add(
-      "File", file,
-      "Table of its motion, separated by commas, with a row of names: time_s from the start of the "
-      "run and at least one of lateral_shift_mm, yaw_mrad, roll_mrad and angular_velocity_rad_per_s. "
-      "What it has takes the place of the parameter of that name. At least four rows, as long as the "
-      "run; in between it is interpolated smoothly and without overshoot.");
-    section.add("Lateral stiffness (MN per m)", springs.stiffness,
-                "Lateral stiffness between the wheelset and a frame that runs along with it; the force "
-                "counts from the position at the start.",
-                Number(0.));
-    section.add("Lateral damping (kN s per m)", springs.damping,
-                "Damping of the lateral velocity relative to that frame.", Number(0.));
-    section.add("Lateral force (kN)", springs.force, "balance",
-                "Constant lateral force on the wheelset, positive towards the side of the modelled wheel. "
-                "balance: the force that holds the wheelset in place at the start.",
-                Number());
-    section.add("Yaw stiffness (MN m per rad)", springs.yaw_stiffness,
-                "Yaw stiffness relative to that frame; the moment counts from the yaw at the start.",
-                Number(0.));
-    section.add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Damping of the yaw rate.", Number(0.));
-    section.add("Yaw moment (kN m)", springs.moment, "balance",
-                "Constant yaw moment on the wheelset. balance: the moment that holds the wheelset in place "
-                "at the start.",
-                Number());
-    section.add(
-      "Yaw inertia (kg m2)", yaw_inertia,
-      "Of the wheelset about the vertical, and about x where both wheels are meshed, without the wheels' "
-      "cells. 0: on springs the yaw is held.",
-      Number(0.));
+    section.needs({"Guidance/Kind", {"file"}})
+      .add("File", file,
+           "Table of its motion, separated by commas, with a row of names: time_s from the start of the "
+           "run and at least one of lateral_shift_mm, yaw_mrad, roll_mrad and angular_velocity_rad_per_s. "
+           "What it has takes the place of the parameter of that name. At least four rows, as long as the "
+           "run; in between it is interpolated smoothly and without overshoot.");
+    section.needs(on_springs)
+      .add("Lateral stiffness (MN per m)", springs.stiffness,
+           "Lateral stiffness between the wheelset and a frame that runs along with it; the force "
+           "counts from the position at the start.",
+           Number(0.));
+    section.needs(on_springs)
+      .add("Lateral damping (kN s per m)", springs.damping,
+           "Damping of the lateral velocity relative to that frame.", Number(0.));
+    section.needs(on_springs)
+      .add("Lateral force (kN)", springs.force, "balance",
+           "Constant lateral force on the wheelset, positive towards the side of the modelled wheel. "
+           "balance: the force that holds the wheelset in place at the start.",
+           Number());
+    section.needs(on_springs)
+      .add("Yaw stiffness (MN m per rad)", springs.yaw_stiffness,
+           "Yaw stiffness relative to that frame; the moment counts from the yaw at the start.", Number(0.));
+    section.needs(on_springs)
+      .add("Yaw damping (kN m s per rad)", springs.yaw_damping, "Damping of the yaw rate.", Number(0.));
+    section.needs(on_springs)
+      .add("Yaw moment (kN m)", springs.moment, "balance",
+           "Constant yaw moment on the wheelset. balance: the moment that holds the wheelset in place "
+           "at the start.",
+           Number());
+    section
+      .needs(Need("Guidance/Kind", {"springs"}, "springs, or both wheels")
+               .or_has("Wheelset/Both wheels", {"true"}))
+      .add(
+        "Yaw inertia (kg m2)", yaw_inertia,
+        "Of the wheelset about the vertical, and about x where both wheels are meshed, without the wheels' "
+        "cells. 0: on springs the yaw is held.",
+        Number(0.));
   }
 
 

@@ -21,6 +21,14 @@ namespace tread
   {
     constexpr double  tiny = 1e-12; // for "above 0"
     const std::string zone = AnyText::number() + "(:" + AnyText::number() + "){4}";
+    const Need        yields =
+      Need(section.path("Yield stress (MPa)"), {}, "above 0").or_has(section.path("Plastic zones"), {});
+    const Need by_a_modulus(section.path("Hardening"), {"isotropic", "kinematic"});
+    const Need by_backstresses =
+      Need(section.path("Hardening"), {"Armstrong-Frederick"}, "Armstrong-Frederick, with a yield stress")
+        .and_has(section.path("Yield stress (MPa)"), {})
+        .or_has(section.path("Plastic zones"), {});
+
     section.add("Young's modulus (GPa)", young_modulus, "Young's modulus.", Number(1e-3, 1e4));
     section.add("Poisson's ratio", poisson_ratio, "Poisson's ratio, from 0 to 0.49.", Number(0., 0.49));
     section.add("Density (kg per m3)", density, "Density, which gives the cells their inertia.",
@@ -29,27 +37,32 @@ namespace tread
       "Yield stress (MPa)", yield_stress,
       "Von Mises stress at which the material first yields. 0: elastic. The static load may well exceed it.",
       Number(0.));
-    section.add("Tangent modulus (GPa)", tangent_modulus,
-                "Slope of the uniaxial stress over strain beyond yield, for isotropic and kinematic "
-                "hardening. From 0 "
-                "to below Young's modulus.",
-                Number(0.));
-    section.choose("Hardening", hardening);
-    section.add("Backstress moduli (GPa)", backstress_moduli,
-                "For Armstrong-Frederick hardening: modulus C of each backstress, separated by commas, in da "
-                "= 2/3 C de - gamma a dp.",
-                Number(0.), PlasticMaterial::max_backstresses);
-    section.add("Backstress recoveries", backstress_recoveries,
-                "For Armstrong-Frederick hardening: recovery gamma of each backstress, without a unit; the "
-                "backstress saturates at C/gamma.",
-                Number(0.), PlasticMaterial::max_backstresses);
-    section.add("Plastic depth (mm)", plastic_depth,
-                "Depth under the contact path down to which cells can yield; those below stay elastic and "
-                "cost less. One patch length is enough.",
-                Number(tiny));
-    section.add("Plastic half width (mm)", plastic_half_width,
-                "Distance from the middle of the path, to both sides, within which cells can yield.",
-                Number(tiny));
+    section.needs(yields)
+      .needs(by_a_modulus)
+      .add("Tangent modulus (GPa)", tangent_modulus,
+           "Slope of the uniaxial stress over strain beyond yield, for isotropic and kinematic "
+           "hardening. From 0 "
+           "to below Young's modulus.",
+           Number(0.));
+    section.needs(yields).choose("Hardening", hardening);
+    section.needs(by_backstresses)
+      .add("Backstress moduli (GPa)", backstress_moduli,
+           "For Armstrong-Frederick hardening: modulus C of each backstress, separated by commas, in da "
+           "= 2/3 C de - gamma a dp.",
+           Number(0.), PlasticMaterial::max_backstresses);
+    section.needs(by_backstresses)
+      .add("Backstress recoveries", backstress_recoveries,
+           "For Armstrong-Frederick hardening: recovery gamma of each backstress, without a unit; the "
+           "backstress saturates at C/gamma.",
+           Number(0.), PlasticMaterial::max_backstresses);
+    section.needs(yields).add(
+      "Plastic depth (mm)", plastic_depth,
+      "Depth under the contact path down to which cells can yield; those below stay elastic and "
+      "cost less. One patch length is enough.",
+      Number(tiny));
+    section.needs(yields).add(
+      "Plastic half width (mm)", plastic_half_width,
+      "Distance from the middle of the path, to both sides, within which cells can yield.", Number(tiny));
     section.add(
       "Plastic zones", plastic_zones,
       "Parts with another yield stress, such as a weld or a hardened layer: begin and end along the path "

@@ -18,7 +18,9 @@ namespace tread
 
   void MeshSection::declare(ParameterTable &table)
   {
-    Section section(table, "Mesh");
+    Section    section(table, "Mesh");
+    const auto with_window =
+      Need::of_fact("Mesh/Window", "true, or automatic on a way that is long enough", "window");
 
     section.add("Finest cell (mm)", finest_cell,
                 "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
@@ -57,26 +59,28 @@ namespace tread
                 "where the wheel only has to arrive, but the contact force ripples as it rolls over "
                 "large cells: at most half a semi-axis. 0: the finest cell.",
                 Number(0., 100.));
-    section.add("Longest row (mm)", longest_row,
-                "Largest length of the coarse cells of a full section beside the path.", Number(1., 1000.));
+    section.needs({"Rail/Shape", {"full section"}})
+      .add("Longest row (mm)", longest_row,
+           "Largest length of the coarse cells of a full section beside the path.", Number(1., 1000.));
     section.choose(
       "Window", window,
       "Keep cells fine only about the wheel: when it has rolled 'Window length', the run goes on with a "
       "mesh whose fine cells are further on, on rail and wheel. Cost then grows with the way alone. "
       "Energy that fine cells had and others do not carry is the ledger's window loss.",
       "The summary's 'windows' says how often it stood somewhere.");
-    section.add(
-      "Window length (mm)", window_length,
-      "Way between two changes, at most. 0: about 2.5 semi-axes of the patch, 12 on supports, and "
-      "longer by the fourth root of 'Scene/Density scale'. The mesh also changes just before the cubes of "
-      "'Fine from (mm)' come and when those of 'Fine to (mm)' have gone, unless that is nearer to another "
-      "change, or to an end of the way, than a third of this.",
-      Number(0., 1e5));
-    section.add(
-      "Window margin (mm)", window_margin,
-      "Length of the finest cells before and behind the wheel at a change. 0: 1.75 semi-axes and two "
-      "cells.",
-      Number(0., 1e4));
+    section.needs(with_window)
+      .add(
+        "Window length (mm)", window_length,
+        "Way between two changes, at most. 0: about 2.5 semi-axes of the patch, 12 on supports, and "
+        "longer by the fourth root of 'Scene/Density scale'. The mesh also changes just before the cubes of "
+        "'Fine from (mm)' come and when those of 'Fine to (mm)' have gone, unless that is nearer to another "
+        "change, or to an end of the way, than a third of this.",
+        Number(0., 1e5));
+    section.needs(with_window)
+      .add("Window margin (mm)", window_margin,
+           "Length of the finest cells before and behind the wheel at a change. 0: 1.75 semi-axes and two "
+           "cells.",
+           Number(0., 1e4));
   }
 
 

@@ -23,6 +23,7 @@ namespace tread
   {
     constexpr double tiny = 1e-12; // for "above 0"
     Section          section(table, "Motion");
+    const Need       by_torque("Motion/Drive", {"torque"});
 
     section.add("Speed (km per h)", speed, "Speed of the wheel's centre, constant along x. At least 0.1.",
                 Number(0., 1000.));
@@ -45,9 +46,10 @@ namespace tread
       "the rolled distance alone.",
       Number(0., 10000.));
     section.choose("Drive", drive);
-    section.add("Traction coefficient", traction_coefficient,
-                "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
-                Number(-2., 2.));
+    section.needs(Need::of_fact("Motion/Creepage", "predicted", "traction").or_else(by_torque))
+      .add("Traction coefficient", traction_coefficient,
+           "Longitudinal over normal force, positive when driving. Below the friction coefficient.",
+           Number(-2., 2.));
     section.add(
       "Creepage", creepage, "predicted",
       "(angular velocity x radius - speed) / speed, counted from free rolling, positive when "
@@ -69,7 +71,7 @@ namespace tread
       "the middle of the wheel it slides by nothing, ahead of it towards +y if positive. The spin of a "
       "tapered tread comes by itself.",
       Number(-10., 10.));
-    section.add(
+    section.needs(by_torque).add(
       "Hold distance (mm)", hold_distance,
       "Distance that is rolled at the prescribed creepage before the torque acts, which saves a long run-in.",
       Number(0., 10000.));

@@ -23,10 +23,11 @@ namespace tread
     section.add("Directory", directory, "Folder of the results; --output overrides it.");
     section.add("History interval (mm)", history_interval, "Rolled distance between rows of history.csv.",
                 Number(1e-3));
-    section.add("Supports", supports,
-                "Numbers of the supports whose forces history.csv has, separated by commas; empty: those "
-                "beside the path of the wheel.",
-                WholeNumber(-1000, 1000), 1000);
+    section.needs({"Track/Foundation", {"one-layer", "two-layer"}})
+      .add("Supports", supports,
+           "Numbers of the supports whose forces history.csv has, separated by commas; empty: those "
+           "beside the path of the wheel.",
+           WholeNumber(-1000, 1000), 1000);
     section.add(
       "Cells", cells,
       "Cells of the rail whose von Mises stress and equivalent plastic strain cells.csv has, a row for each "
@@ -47,8 +48,9 @@ namespace tread
       "Rolled distance between the instants of patches.csv, with or without pictures: the table alone "
       "costs next to nothing. 0: as the pictures.",
       Number(0.));
-    section.add("Volume interval (mm)", volume_interval,
-                "Rolled distance between pictures of the bodies; 0: the solution instant only.", Number(0.));
+    section.needs({"Output/Write volume", {"true"}})
+      .add("Volume interval (mm)", volume_interval,
+           "Rolled distance between pictures of the bodies; 0: the solution instant only.", Number(0.));
     section.add(
       "Table depth (mm)", table_depth,
       "At the solution instant rail_cells.csv lists stress and plastic strain of the rail's cells under the "

@@ -18,14 +18,16 @@ namespace tread
 
   void PeakStressSection::declare(ParameterTable &table)
   {
-    Section section(table, "Peak stress");
+    Section    section(table, "Peak stress");
+    const Need range("Peak stress/Region", {"range"});
 
     section.choose("Region", place,
                    "peak_stress.csv lists, for each layer of cells of the rail in a region and for the "
                    "surface, the largest von Mises stress of all steps with its place and instant, "
                    "peak_stress_wheel.csv those of the tread of the first wheel that rolls over it.");
-    section.add("From (mm)", from, "x of the beginning of a range.", Number(-1e5, 1e5));
-    section.add("To (mm)", to, "x of the end of a range.", Number(-1e5, 1e5));
+    section.all_need({{"Peak stress/Region", {}, "a region"}});
+    section.needs(range).add("From (mm)", from, "x of the beginning of a range.", Number(-1e5, 1e5));
+    section.needs(range).add("To (mm)", to, "x of the end of a range.", Number(-1e5, 1e5));
     section.add("Half width (mm)", half_width,
                 "Half width of the region, to both sides of the first contact, or of the path of a wheelset "
                 "in a position: of the largest patch of its own wheel, on slices of the piece that carries "

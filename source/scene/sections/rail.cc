@@ -76,26 +76,32 @@ namespace tread
 
   void RailSection::declare(ParameterTable &table)
   {
-    Section section(table, "Rail");
+    Section    section(table, "Rail");
+    const Need with_profile("Rail/Shape", {"head", "full section"}), block("Rail/Shape", {"block"}),
+      of_slices("Rail/Shape", {"slices"}), of_mesh("Rail/Shape", {"mesh"}),
+      without_mesh("Rail/Shape", {"head", "full section", "block", "slices"}),
+      on_supports("Track/Foundation", {"one-layer", "two-layer"});
 
     section.choose("Shape", shape);
-    section.choose(
-      "Profile", profile,
-      "Of a head or a full section. 54E1, 60E1, 49E1: EN 13674-1, the UIC54, UIC60 and S49 of before; CN60: "
-      "TB/T 2344, also called CHN60. Heads of other rails come from points ('Measured head') on the section "
-      "that is "
-      "nearest; doc/geometry.md says how, and why there are no more names.");
-    section.add(
-      "Measured head", measured_head,
-      "File with a measured running surface that takes the place of the profile's own: columns y and z in mm "
-      "(gauge side at y < 0), .prr of Simpack or .ban of MiniProf. At least 12 mm to each side of the "
-      "middle; contact must lie within. Empty: a new rail.",
-      AnyText());
-    section.add("Measured head mirrored", head_placement.is_mirrored,
-                "true: the sign of y in the file is reversed, for files with the gauge side at y > 0.");
-    section.add("Measured head shift (mm)", head_placement.shift,
-                "Added to the file's y, after mirroring: where its y = 0 lies from the rail's middle line.",
-                Number(-200., 200.));
+    section.needs(with_profile)
+      .choose(
+        "Profile", profile,
+        "Of a head or a full section. 54E1, 60E1, 49E1: EN 13674-1, the UIC54, UIC60 and S49 of before; "
+        "CN60: TB/T 2344, also called CHN60. Heads of other rails come from points ('Measured head') on the "
+        "section that is nearest; doc/geometry.md says how, and why there are no more names.");
+    section.needs(with_profile)
+      .add("Measured head", measured_head,
+           "File with a measured running surface that takes the place of the profile's own: columns y and z "
+           "in mm (gauge side at y < 0), .prr of Simpack or .ban of MiniProf. At least 12 mm to each side of "
+           "the middle; contact must lie within. Empty: a new rail.",
+           AnyText());
+    section.needs(with_profile)
+      .add("Measured head mirrored", head_placement.is_mirrored,
+           "true: the sign of y in the file is reversed, for files with the gauge side at y > 0.");
+    section.needs(with_profile)
+      .add("Measured head shift (mm)", head_placement.shift,
+           "Added to the file's y, after mirroring: where its y = 0 lies from the rail's middle line.",
+           Number(-200., 200.));
     section.add(
       "Smoothing length (mm)", head_placement.smoothing,
       "Of the file 'Rail/Measured head': a smoothing spline leaves half of waves of this length along the "
@@ -106,54 +112,64 @@ namespace tread
                 "File with the slices of 'Shape' slices, such as a crossing: a .slcs of CONTACT or a table, "
                 "doc/crossing.md. Blocks are 'Wheel/Sector thickness (mm)' thick.",
                 AnyText());
-    section.add("Slices place (mm)", slices_place, "Place along the slices that lies at x = 0 of the scene.",
-                Number(-1e6, 1e6));
-    section.add("Slices y (mm)", slices_y,
-                "Where y = 0 of the slices lies, from the middle of the track to the own side.",
-                Number(-3000., 3000.));
-    section.add("Slices z (mm)", slices_z, "Where z = 0 of the slices lies, over the tops of the rails.",
-                Number(-1000., 1000.));
+    section.needs(of_slices).add("Slices place (mm)", slices_place,
+                                 "Place along the slices that lies at x = 0 of the scene.",
+                                 Number(-1e6, 1e6));
+    section.needs(of_slices).add(
+      "Slices y (mm)", slices_y,
+      "Where y = 0 of the slices lies, from the middle of the track to the own side.", Number(-3000., 3000.));
+    section.needs(of_slices).add("Slices z (mm)", slices_z,
+                                 "Where z = 0 of the slices lies, over the tops of the rails.",
+                                 Number(-1000., 1000.));
     section.add("Mesh file", mesh_file,
                 "File of 'Shape' mesh, x along the path and z up: .msh of Gmsh (ASCII, 2.2 or 4.1), .inp of "
                 "Abaqus or .k of LS-DYNA. Its faces are named contact, support, end or symmetry; "
                 "doc/own-mesh.md. The path lies at y = 0 or beside it, as the wheel has it.",
                 AnyText());
-    section.choose("Mesh unit", mesh_unit, "Of the lengths in 'Mesh file'.");
-    section.add(
+    section.needs(of_mesh).choose("Mesh unit", mesh_unit, "Of the lengths in 'Mesh file'.");
+    section.needs(of_mesh).add(
       "Materials", materials,
       "Of 'Mesh file': volumes that are of another, elastic material than the rail, such as an end post or "
       "rubber around the rail. Name of the volume, Young's modulus (GPa), Poisson's ratio and density (kg "
       "per m3), separated by colons, as in end post:3:0.35:1900. Several: separated by commas.");
-    section.choose("Inclination", inclination,
-                   "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the "
-                   "same slope touches it on the "
-                   "middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.");
-    section.add("Begin (mm)", begin, "automatic",
-                "x of the beginning of the rail. automatic: if Length is given, the rail extends as far "
-                "before the path as behind it; otherwise it extends by Margin.",
-                Number(-1e5, 1e5));
-    section.add("Length (mm)", length,
-                "Length of the whole rail. 0: the rail ends by Margin behind the path.", Number(0., 1e5));
-    section.add("Crown radius (mm)", crown_radius,
-                "Radius of the crown of a block, which is its lateral curvature.", Number(10., 1e6));
-    section.add("Block width (mm)", block_width, "Lateral width of a block.", Number(1., 1000.));
-    section.add("Block height (mm)", block_height, "Height of a block at its crown; its bottom is held.",
-                Number(1., 1000.));
-    section.add("Margin (mm)", margin,
-                "Length of rail beyond the rolled distance at each end. At least three contact semi-axes; "
-                "150 mm for a full section, whose head deflects more near a free end, which would make the "
-                "normal force drift by per cents.",
-                Number(0., 20000.));
-    section.choose("Ends", ends, "Of a rail on supports ('Track/Foundation').");
-    section.add("Absorbing length (m)", absorbing_length,
-                "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
-                "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
-                Number(0.05, 100.));
-    section.add("Spans beyond", spans_beyond,
-                "Sleeper spans of the beam behind each endless end, or each end of a piece on a beam "
-                "('Track/Foundation'), whose farther half absorbs what arrives. "
-                "Their supports are those of section Track, all alike, whatever 'Track/Support file' has.",
-                WholeNumber(4, 1000));
+    section.needs(with_profile)
+      .choose(
+        "Inclination", inclination,
+        "Of a head or a full section: how far it leans to the gauge side, y < 0. A cone of the same slope "
+        "touches it on the middle of the top, a cylinder 7.5 mm (1:40) or 15 mm (1:20) beside it.");
+    section.needs(without_mesh)
+      .add("Begin (mm)", begin, "automatic",
+           "x of the beginning of the rail. automatic: if Length is given, the rail extends as far "
+           "before the path as behind it; otherwise it extends by Margin.",
+           Number(-1e5, 1e5));
+    section.needs(without_mesh)
+      .add("Length (mm)", length, "Length of the whole rail. 0: the rail ends by Margin behind the path.",
+           Number(0., 1e5));
+    section.needs(block).add("Crown radius (mm)", crown_radius,
+                             "Radius of the crown of a block, which is its lateral curvature.",
+                             Number(10., 1e6));
+    section.needs(block).add("Block width (mm)", block_width, "Lateral width of a block.", Number(1., 1000.));
+    section.needs(block).add("Block height (mm)", block_height,
+                             "Height of a block at its crown; its bottom is held.", Number(1., 1000.));
+    section.needs(without_mesh)
+      .add("Margin (mm)", margin,
+           "Length of rail beyond the rolled distance at each end. At least three contact semi-axes; "
+           "150 mm for a full section, whose head deflects more near a free end, which would make the "
+           "normal force drift by per cents.",
+           Number(0., 20000.));
+    section.needs(on_supports).choose("Ends", ends, "Of a rail on supports ('Track/Foundation').");
+    section.needs(on_supports)
+      .add("Absorbing length (m)", absorbing_length,
+           "Length of the damped part at each absorbing end; the wheel's path stays one sleeper spacing "
+           "clear of it. Longer parts absorb lower frequencies; it helps from 0.6 m on.",
+           Number(0.05, 100.));
+    section
+      .needs(Need("Rail/Ends", {"endless"}, "endless, or on a beam").or_has("Track/Foundation", {"beam"}))
+      .add("Spans beyond", spans_beyond,
+           "Sleeper spans of the beam behind each endless end, or each end of a piece on a beam "
+           "('Track/Foundation'), whose farther half absorbs what arrives. "
+           "Their supports are those of section Track, all alike, whatever 'Track/Support file' has.",
+           WholeNumber(4, 1000));
     material.declare(section);
   }
 

@@ -19,6 +19,7 @@ namespace tread
     section.add("Jumps", jumps,
                 "true: once the rail changes alike from passage to passage, its change is extrapolated over "
                 "passages that are not rolled; doc/ratcheting.md.");
+    section.all_need({{"Ratcheting/Jumps", {"true"}}});
     section.add(
       "Rolled between jumps", rolled_between,
       "Passages that are rolled between two jumps at least: by the last three what fades behind a jump "

@@ -8,9 +8,14 @@ namespace tread
     Section section(table, "Solid");
 
     section.choose("Element", element, elements());
-    section.add("Hourglass coefficient", hourglass_coefficient,
-                "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
-                Number(0.01, 10.));
+    std::vector<std::string> with_hourglass_modes;
+    for (const ElementEntry &entry : elements())
+      if (entry.has_hourglass_modes)
+        with_hourglass_modes.push_back(entry.name);
+    section.needs({"Solid/Element", with_hourglass_modes})
+      .add("Hourglass coefficient", hourglass_coefficient,
+           "Stiffness of the hourglass modes; 1 gives a cube the stiffness of pure bending.",
+           Number(0.01, 10.));
     section.add(
       "Matched surface", matched_surface,
       "Whether the hourglass stiffness of the uppermost layer of one-point cells is weighted so that "

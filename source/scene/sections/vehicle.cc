@@ -7,10 +7,12 @@ namespace tread
   {
     Section section(table, "Vehicle");
 
-    section.add(
-      "Sprung mass (kg)", sprung_mass,
-      "Sprung mass per wheel: it rests on the primary suspension and its weight is part of the wheel load.",
-      Number(0.));
+    section.needs({"Vehicle/Wheel load (kN)", {"masses"}})
+      .needs({"Vehicle/Axle load (t)", {"none"}})
+      .add(
+        "Sprung mass (kg)", sprung_mass,
+        "Sprung mass per wheel: it rests on the primary suspension and its weight is part of the wheel load.",
+        Number(0.));
     section.add("Wheel load (kN)", wheel_load, "masses",
                 "Static force between each wheel and the rail. A number sets the sprung mass, whatever "
                 "'Sprung mass' says. masses: the load is the weight of 'Wheel/Mass' and sprung mass.",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <tread/scene/sections/wheel.h>
+#include <tread/scene/sections/wheelset.h>
 
 #include <algorithm>
 
@@ -20,6 +21,8 @@ namespace tread
   {
     constexpr double tiny = 1e-12; // for "above 0"
     Section          section(table, "Wheel");
+    const Need       full("Wheel/Shape", {"full"}),
+      sector = Need("Wheel/Shape", {"sector"}).or_else(WheelsetSection::in_a_position());
 
     section.choose("Shape", shape);
     section.add("Radius (mm)", radius, "Rolling radius of the wheel. It sets the curvature along the rail.",
@@ -32,33 +35,39 @@ namespace tread
       "Moment of inertia (kg m2)", moment_of_inertia,
       "Moment of inertia of the unsprung mass about the axle. It matters when a torque drives the wheel.",
       Number(tiny));
-    section.add(
+    section.needs(sector).add(
       "Sector thickness (mm)", sector_thickness,
       "Radial thickness of a sector; a thicker one is nearer to a half-space. Where 'Wheelset' has a "
       "position: thickness of wheel and rail behind their surfaces, at right angles to the contact.",
       Number(1., 1000.));
-    section.add("Sector width (mm)", sector_width,
-                "Lateral width of a sector. Where 'Wheelset' has a position: width of wheel and rail along "
-                "their surfaces, across the path.",
-                Number(1., 1000.));
-    section.add("Sector margin (mm)", sector_margin,
-                "Length of the arc by which a sector extends beyond the rolled distance at each end.",
-                Number(0., 1000.));
-    section.add(
+    section.needs(sector).add(
+      "Sector width (mm)", sector_width,
+      "Lateral width of a sector. Where 'Wheelset' has a position: width of wheel and rail along "
+      "their surfaces, across the path.",
+      Number(1., 1000.));
+    section.needs(sector).add(
+      "Sector margin (mm)", sector_margin,
+      "Length of the arc by which a sector extends beyond the rolled distance at each end.",
+      Number(0., 1000.));
+    section.needs(full).add(
       "Rim inner radius (mm)", rim_inner_radius,
       "Inner radius of the rim of a full wheel; above the hub's outer radius and below the wheel's radius.",
       Number(1., 2000.));
-    section.add("Rim width (mm)", rim_width,
-                "Width of the rim of a full wheel; above the thickness of the web.", Number(1., 1000.));
-    section.add("Web thickness (mm)", web_thickness,
-                "Thickness of the web of a full wheel; below rim width and hub length.", Number(1., 1000.));
-    section.add("Hub outer radius (mm)", hub_outer_radius,
-                "Outer radius of the hub of a full wheel; above the radius of the bore.", Number(1., 2000.));
-    section.add("Hub length (mm)", hub_length,
-                "Length of the hub of a full wheel along the axle; above the thickness of the web.",
-                Number(1., 1000.));
-    section.add("Bore radius (mm)", bore_radius,
-                "Radius of the bore of a full wheel, in which the rigid axle sits.", Number(1., 2000.));
+    section.needs(full).add("Rim width (mm)", rim_width,
+                            "Width of the rim of a full wheel; above the thickness of the web.",
+                            Number(1., 1000.));
+    section.needs(full).add("Web thickness (mm)", web_thickness,
+                            "Thickness of the web of a full wheel; below rim width and hub length.",
+                            Number(1., 1000.));
+    section.needs(full).add("Hub outer radius (mm)", hub_outer_radius,
+                            "Outer radius of the hub of a full wheel; above the radius of the bore.",
+                            Number(1., 2000.));
+    section.needs(full).add(
+      "Hub length (mm)", hub_length,
+      "Length of the hub of a full wheel along the axle; above the thickness of the web.", Number(1., 1000.));
+    section.needs(full).add("Bore radius (mm)", bore_radius,
+                            "Radius of the bore of a full wheel, in which the rigid axle sits.",
+                            Number(1., 2000.));
     section.add(
       "Tread profile", tread_profile,
       "cylinder, cone 1:40, cone 1:20, S1002 (EN 13715), or a file with a measured one: columns y and z in "
@@ -88,15 +97,16 @@ namespace tread
       "each place y; .slcw of CONTACT), 'flat: length_mm=L depth_mm=D across_radius_mm=R angle_deg=A', or "
       "'waves: ORDER=AMPLITUDE_MM@CREST_DEG ...'. Empty: the wheel is round.",
       AnyText());
-    section.add("Deviation smoothing (mm)", deviation_smoothing,
-                "Of a scan: of waves of this length, along and across the tread, half is left. 0: none.",
-                Number(0., 100.));
-    section.add(
-      "Deviation pitch (deg)", deviation_pitch,
-      "Turn of the deviation about the axle at the start, negative forward. At 0 its angle 0 is at "
-      "the bottom; a place at the angle A on the wheel comes to the rail when the wheel has rolled by "
-      "its radius times A plus this pitch.",
-      Number(-360., 360.));
+    section.needs(Need::of_fact("Wheel/Deviation", "a file", "scan"))
+      .add("Deviation smoothing (mm)", deviation_smoothing,
+           "Of a scan: of waves of this length, along and across the tread, half is left. 0: none.",
+           Number(0., 100.));
+    section.needs({"Wheel/Deviation", {}, "a file or a rule"})
+      .add("Deviation pitch (deg)", deviation_pitch,
+           "Turn of the deviation about the axle at the start, negative forward. At 0 its angle 0 is at "
+           "the bottom; a place at the angle A on the wheel comes to the rail when the wheel has rolled by "
+           "its radius times A plus this pitch.",
+           Number(-360., 360.));
     material.declare(section);
   }
 

@@ -20,7 +20,8 @@ namespace tread
 
   void WheelsetSection::declare(ParameterTable &table)
   {
-    Section section(table, "Wheelset");
+    Section    section(table, "Wheelset");
+    const Need gauge_faces("Rail/Shape", {"head", "full section"}, "head");
 
     section.add("Lateral shift (mm)", shift, "none",
                 "Lateral displacement of the wheelset from the middle of the track, positive towards the "
@@ -36,6 +37,8 @@ namespace tread
       "Roll (mrad)", roll,
       "Roll of the wheelset, positive when the side of the modelled wheel goes down. Up to 5 degrees.",
       Number());
+    // What stands above puts the wheel there.
+    section.all_need({in_a_position()});
     section.add("Both wheels", both_wheels,
                 "true: both wheels are meshed, on one axle and over both rails. Mass, inertia, load and "
                 "suspension of the wheel are then those of each wheel, and the roll follows from both "
@@ -53,10 +56,12 @@ namespace tread
       "Axle damping (us)", axle_damping,
       "Damping of a flexible axle over its stiffness: twice the damping ratio over the angular frequency.",
       Number(0., 1e5));
-    section.add("Track gauge (mm)", track.gauge, "Track gauge, between the gauge faces of both rails.",
-                Number(500., 3000.));
-    section.add("Gauge depth (mm)", track.measuring_depth,
-                "Depth below the rail tops at which the gauge is measured.", Number(1., 30.));
+    section.needs(gauge_faces)
+      .add("Track gauge (mm)", track.gauge, "Track gauge, between the gauge faces of both rails.",
+           Number(500., 3000.));
+    section.needs(gauge_faces)
+      .add("Gauge depth (mm)", track.measuring_depth,
+           "Depth below the rail tops at which the gauge is measured.", Number(1., 30.));
     section.add("Flange-back distance (mm)", track.back_distance,
                 "Back-to-back distance of the wheels' flanges.", Number(400., 3000.));
     section.add("Flange back (mm)", track.back_position, "y of the flange's back in the wheel's profile.",
@@ -68,6 +73,16 @@ namespace tread
                 "the surface, as one patch in "
                 "one plane. Others are patches of their own, which do not deform each other.",
                 Number(0., 100.));
+  }
+
+
+  Need WheelsetSection::in_a_position()
+  {
+    return Need("Wheelset/Lateral shift (mm)", {}, "a number")
+      .or_has("Wheelset/Yaw (mrad)", {})
+      .or_has("Wheelset/Roll (mrad)", {})
+      .or_has("Motion/Angular velocity (rad per s)", {})
+      .or_has("Guidance/Kind", {"file"});
   }
 
 

@@ -51,6 +51,8 @@ namespace tread
     }
 
     void declare(ParameterTable &table);
+    /// That the wheel stands in a position, or turns as one does. @see Scene::is_positioned()
+    static Need in_a_position();
     /// @throws InputError
     void check() const;
   };
