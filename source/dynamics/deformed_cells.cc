@@ -98,16 +98,16 @@ namespace tread
                       " has been turned inside out after " + std::to_string(moving.state.n_steps) +
                       " steps: its strain is too large for this mesh; use larger cells there, or "
                       "less load or hardening that carries it");
-    else if (least < moving.parameters.least_volume)
+    else if (least < moving.parameters.stop_at.volume)
       throw WentWrong("the cell " + moving.place_of_worst_cell(least_volume == least, worst) +
                       format(" has %.3g of its volume after %llu steps, below 'Watchdogs/Stop at volume' %g",
                              least, (unsigned long long)moving.state.n_steps,
-                             moving.parameters.least_volume));
-    if (const double largest = max(strain, moving.mesh.comm); largest > moving.parameters.largest_strain)
+                             moving.parameters.stop_at.volume));
+    if (const double largest = max(strain, moving.mesh.comm); largest > moving.parameters.stop_at.strain)
       throw WentWrong("the cell " + moving.place_of_worst_cell(strain == largest, most_strained) +
                       format(" has a strain of %.3g after %llu steps, above 'Watchdogs/Stop at strain' %g",
                              largest, (unsigned long long)moving.state.n_steps,
-                             moving.parameters.largest_strain));
+                             moving.parameters.stop_at.strain));
 
     // No motion of the mesh can have become faster by more than its most changed cell, nor be faster than the
     // fastest cell alone: while that is slow enough nothing needs to be known exactly.

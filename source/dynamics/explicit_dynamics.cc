@@ -107,13 +107,13 @@ namespace tread
           worst   = i;
         }
     const double largest = dealii::Utilities::MPI::max(fastest, mesh.comm);
-    if (largest <= parameters.largest_speed * parameters.largest_speed)
+    if (largest <= parameters.stop_at.node_speed * parameters.stop_at.node_speed)
       return;
     const bool             is_here = fastest == largest && !state.v.empty();
     const dealii::Point<3> place   = is_here ? mesh.nodes[worst] : dealii::Point<3>();
     throw WentWrong(
       format("unstable: nodes move faster than %g m/s after %llu steps, most of all that which was ",
-             parameters.largest_speed, (unsigned long long)state.n_steps) +
+             parameters.stop_at.node_speed, (unsigned long long)state.n_steps) +
       place_of_worst(is_here, place, is_here ? mesh.node_bodies[worst] : 0) +
       format("; lower 'Time stepping/Courant number' (%f, at most 1)", parameters.courant_number));
   }

@@ -10,9 +10,9 @@
 #include <tread/dynamics/parts/wheel.h>
 #include <tread/model/model.h>
 #include <tread/model/parts.h>
+#include <tread/model/rail_hold.h>
 #include <tread/scene/parts.h>
 #include <tread/scene/track_parts.h>
-#include <tread/track/rail_ends.h>
 #include <tread/track/track_beam.h>
 
 #include <algorithm>
@@ -22,14 +22,15 @@ namespace tread
   namespace
   {
     /// The rail on its supports, with what lies beyond the ends of its cells.
-    void add_supports(Model &model)
+    void put_rail_on_supports(Model &model)
     {
       const Scene      &scene    = model.scene;
       const Mesh       &mesh     = model.mesh;
       ExplicitDynamics &dynamics = model.dynamics;
-      model.supports             = std::make_unique<Supports>(mesh, rail_body, support_positions(scene),
-                                                  track_parameters(scene), solid_sleepers(scene));
-      Supports &supports         = *model.supports;
+      model.supports             = make_supports(scene, mesh);
+      if (!model.supports)
+        return;
+      Supports &supports = *model.supports;
       for (const int number : recorded_supports(scene))
         supports.add_probe(mid_span_beside(scene, number));
       auto beyond = track_beyond(scene);
@@ -44,29 +45,19 @@ namespace tread
       dynamics.add<RailOnSupports>(supports, scene.rail.material.elastic(), beyond);
       if (beyond)
         dynamics.add<RailOnTrackBeyond>(rail_body, scene.rail.material.elastic(), *beyond);
-      else
-        dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
-      if (const AbsorbingEnds ends = absorbing_ends(scene); ends.length > 0.)
-        dynamics.add<DampedNodes>(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
-      dynamics.guide_nodes(supports.guided_nodes(1), 1);
-      for (const SolidSleeper &sleeper : supports.solid_sleepers)
-        dynamics.guide_nodes(dynamics.boundary_nodes(sleeper.body, Boundary::end), 1);
-      if (!supports.solid_sleepers.empty())
-        dynamics.guide_nodes(supports.guided_nodes(0), 0);
     }
 
-    void hold_rail(Model &model)
+    void hold_rail_of(Model &model)
     {
       ExplicitDynamics &dynamics = model.dynamics;
-      if (model.scene.track.has_supports())
-        add_supports(model);
-      else if (!model.scene.track.has_moving_base())
-        dynamics.fix_nodes(dynamics.support_nodes(rail_body));
-      if (model.scene.shapes().rail_mesh)
-        {
-          dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::end), 0);
-          dynamics.guide_nodes(dynamics.boundary_nodes(rail_body, Boundary::side), 1);
-        }
+      hold_rail(model.scene, model.mesh, model.supports.get(),
+                {[&](const std::vector<unsigned int> &nodes) { dynamics.fix_nodes(nodes); },
+                 [&](const std::vector<unsigned int> &nodes, const unsigned int direction) {
+                   dynamics.guide_nodes(nodes, direction);
+                 },
+                 [&](const std::function<double(const dealii::Point<3> &)> &rate) {
+                   dynamics.add<DampedNodes>(rail_body, rate);
+                 }});
     }
 
     void put_wheels_on_hubs(Model &model)
@@ -132,8 +123,9 @@ namespace tread
 
   const std::vector<void (*)(Model &)> &model_parts()
   {
-    static const std::vector<void (*)(Model &)> list{hold_rail,        put_wheels_on_hubs, put_rail_on_base,
-                                                     put_rail_on_beam, vary_friction,      impose_sliding};
+    static const std::vector<void (*)(Model &)> list{
+      put_rail_on_supports, hold_rail_of,  put_wheels_on_hubs, put_rail_on_base,
+      put_rail_on_beam,     vary_friction, impose_sliding};
     return list;
   }
 } // namespace tread

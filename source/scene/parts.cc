@@ -48,16 +48,12 @@ namespace tread
 
   SolidParameters solid_parameters(const Scene &scene)
   {
-    SolidParameters p;
-    p.element                  = scene.solid.element;
-    p.hourglass_coefficient    = scene.solid.hourglass_coefficient;
-    p.matched_surface          = scene.solid.matched_surface;
-    p.surface_damping          = scene.solid.matched_surface ? scene.solid.surface_damping : 0.;
-    p.linear_bulk_viscosity    = scene.solid.linear_bulk_viscosity;
-    p.quadratic_bulk_viscosity = scene.solid.quadratic_bulk_viscosity;
-    p.density_scale            = scene.general.density_scale;
-    p.max_level                = scene.time_stepping.levels - 1;
-    p.reproducible             = scene.general.reproducible;
+    SolidParameters p = scene.solid;
+    if (!p.matched_surface)
+      p.surface_damping = 0.;
+    p.density_scale = scene.general.density_scale;
+    p.max_level     = scene.time_stepping.levels - 1;
+    p.reproducible  = scene.general.reproducible;
     if (scene.time_stepping.least_step > 0.)
       p.highest_frequency = highest_frequency_for(scene, scene.time_stepping.least_step);
     return p;
@@ -240,9 +236,7 @@ namespace tread
     DynamicsParameters p;
     p.courant_number = scene.time_stepping.courant_number;
     p.damping_steps  = scene.solid.stiffness_damping;
-    p.largest_strain = scene.watchdogs.stop_at_strain;
-    p.least_volume   = scene.watchdogs.stop_at_volume;
-    p.largest_speed  = scene.watchdogs.stop_at_node_speed;
+    p.stop_at        = scene.watchdogs.stop_at;
     p.mass_damping   = scene.solid.mass_damping;
     p.density_scale  = scene.general.density_scale;
     p.gravity        = scene.vehicle.gravity;
@@ -259,9 +253,8 @@ namespace tread
   ContactParameters contact_parameters(const Scene &scene)
   {
     ContactParameters p;
-    p.solver.tolerance  = scene.contact.tolerance;
-    p.solver.max_sweeps = scene.contact.max_sweeps;
-    p.reproducible      = scene.general.reproducible;
+    p.solver       = scene.contact.solver;
+    p.reproducible = scene.general.reproducible;
     return p;
   }
 } // namespace tread

@@ -2,6 +2,7 @@
 #include <tread/analysis/modes.h>
 #include <tread/base/format.h>
 #include <tread/base/version.h>
+#include <tread/model/rail_hold.h>
 #include <tread/model/rolling_wheel.h>
 #include <tread/output/progress.h>
 #include <tread/output/run_folder.h>
@@ -508,28 +509,19 @@ namespace tread
       std::vector<std::pair<double, std::string>> files;
     };
 
-    /// Hold and support the rail and its sleepers as a run does (@see Model).
-    void hold_track(const Scene &scene, const Mesh &mesh, const Supports *supports, ElasticSystem &system)
+    /// The rail and its sleepers as in a run. @param supports null: the rail is held
+    void put_on_track(const Scene &scene, const Mesh &mesh, const Supports *supports, ElasticSystem &system)
     {
-      if (!supports)
-        {
-          system.fix_nodes(mesh.boundary_nodes(rail_body, Boundary::support));
-          if (scene.shapes().rail_mesh)
-            {
-              system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::end), 0);
-              system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::side), 1);
-            }
-          return;
-        }
-      system.attach_supports(*supports);
-      system.guide_nodes(mesh.boundary_nodes(rail_body, Boundary::end), 0);
-      if (const AbsorbingEnds ends = absorbing_ends(scene); ends.length > 0.)
-        system.damp_nodes(rail_body, [&](const dealii::Point<3> &p) { return ends.rate(p[0]); });
-      system.guide_nodes(supports->guided_nodes(1), 1);
-      for (const SolidSleeper &sleeper : supports->solid_sleepers)
-        system.guide_nodes(mesh.boundary_nodes(sleeper.body, Boundary::end), 1);
-      if (!supports->solid_sleepers.empty())
-        system.guide_nodes(supports->guided_nodes(0), 0);
+      if (supports)
+        system.attach_supports(*supports);
+      hold_rail(scene, mesh, supports,
+                {[&](const std::vector<unsigned int> &nodes) { system.fix_nodes(nodes); },
+                 [&](const std::vector<unsigned int> &nodes, const unsigned int direction) {
+                   system.guide_nodes(nodes, direction);
+                 },
+                 [&](const std::function<double(const dealii::Point<3> &)> &rate) {
+                   system.damp_nodes(rail_body, rate);
+                 }});
     }
   } // namespace
 
@@ -552,6 +544,10 @@ namespace tread
       throw InputError(
         "tread modes: 'Track/Foundation' beam has no modes of its own, as waves leave along the "
         "beam; with one-layer or two-layer a whole rail of cells has");
+    if (scene.track.runs_along())
+      throw InputError("tread modes: 'Track/Foundation' co-running moves on with the wheel, and stands for "
+                       "no track above its "
+                       "own frequency; with rigid, one-layer or two-layer the rail of the cells has modes");
     if (track_beyond(scene))
       throw InputError(
         "tread modes: 'Rail/Ends' endless has no modes of its own, as waves leave; with symmetric the "
@@ -605,12 +601,9 @@ namespace tread
       std::vector<char> with_body(mesh.body_names.size(), true);
       for (unsigned int k = 0; k < scene.n_wheels(); ++k)
         with_body[wheel_body(k)] = false;
-      std::unique_ptr<Supports> supports;
-      if (scene.track.has_supports())
-        supports = std::make_unique<Supports>(mesh, rail_body, support_positions(scene),
-                                              track_parameters(scene), solid_sleepers(scene));
-      ElasticSystem system(mesh, with_body, material, parameters);
-      hold_track(scene, mesh, supports.get(), system);
+      const std::unique_ptr<const Supports> supports = make_supports(scene, mesh);
+      ElasticSystem                         system(mesh, with_body, material, parameters);
+      put_on_track(scene, mesh, supports.get(), system);
       system.assemble();
       Modes modes(system, request.up_to);
       modes.align(on_rail);

@@ -1220,6 +1220,72 @@ namespace scene_parts
   }
 
 
+  /// A defect under a wheelset in a position: in the mesh and in the depth below it, and what the wheel rolls
+  /// over.
+  void check_defect_of_wheelset(tests::Check &check)
+  {
+    constexpr double depth = 0.1e-3, length = 14e-3, width = 6e-3, y_middle = -35e-3, angle_tan = 1. / 40.;
+    Settings         at_corner{
+      "Rail/Inclination=1:40",    "Wheel/Tread profile=S1002",      "Wheelset/Lateral shift (mm)=6",
+      "Wheelset/Yaw (mrad)=14.4", "Wheelset/Roll (mrad)=-0.6272",   "Contact/Friction coefficient=0",
+      "Motion/Creepage=0",        "Motion/Rolled distance (mm)=40", "Mesh/Finest cell (mm)=0.7"};
+    at_corner.insert(at_corner.end(), vehicle.begin(), vehicle.end());
+    const auto with_dip = [&](const double begin, const double y) {
+      return scene_of(at_corner, {"Scene/Quasi-static=false", "Defect/Shape=dip", "Defect/Length (mm)=14",
+                                  "Defect/Width (mm)=6", "Defect/Depth (mm)=0.1",
+                                  "Defect/Position (mm)=" + std::to_string(1e3 * begin),
+                                  "Defect/Lateral position (mm)=" + std::to_string(1e3 * y)});
+    };
+    const double x_begin = -30e-3, cosine = 1. / std::hypot(1., angle_tan), sine = cosine * angle_tan;
+    const auto   smooth = scene_of(at_corner), dipped = with_dip(x_begin, y_middle);
+    const Body   before = smooth->stance().make_bodies({}).front(),
+               behind   = dipped->stance().make_bodies({}).front();
+    double off = 0., off_depth = 0., deepest = 0.;
+    for (double x = x_begin - 1e-3; x < x_begin + length; x += 0.9e-3)
+      for (double along = -6e-3; along <= 6e-3; along += 0.7e-3)
+        for (const double down : {0., 0.5 * smooth->wheel.sector_thickness})
+          {
+            const Point<3> p = before.to_space({x, along, -down}), top = before.to_space({x, along, 0.}),
+                           q  = behind.to_space({x, along, -down});
+            const double u    = (x - x_begin) / length * 2. - 1.,
+                         v    = (cosine * top[1] + sine * top[2] - y_middle) / width * 2.,
+                         fade = 1. - down / smooth->wheel.sector_thickness,
+                         lift = -depth * std::max(0., 1. - u * u - v * v);
+            off     = std::max(off, q.distance(p + Point<3>(0., -sine * fade * lift, cosine * fade * lift)));
+            deepest = std::max(deepest, -lift);
+            if (down == 0.)
+              off_depth = std::max(off_depth, std::abs(dipped->stance().depth_in_rail(q)));
+          }
+    check.below("defect of a wheelset: nodes off their places, um", 1e6 * off, 1e-6);
+    check.absolute("defect of a wheelset: depth of what was looked at, mm", 1e3 * deepest, 0.1, 0.01);
+    // Known: depth is measured along the normal, at 24 degrees to the vertical, where the dip's slope is 6 %.
+    check.below("defect of a wheelset: depth of its surface below itself, um", 1e6 * off_depth, 3.);
+
+    // The patch is the half-space's, which tells its elements.
+    const auto lines         = smooth->stance().loaded_lines();
+    const auto footprint     = smooth->stance().footprints().front();
+    const auto [low, high]   = std::minmax_element(lines.begin(), lines.end());
+    constexpr double element = 0.3e-3;
+    check.absolute("footprint of a wheelset: low edge, mm", 1e3 * footprint.begin, 1e3 * low->first,
+                   1e3 * element);
+    check.absolute("footprint of a wheelset: high edge, mm", 1e3 * footprint.end, 1e3 * high->first,
+                   1e3 * element);
+    check.absolute("footprint of a wheelset: ahead of the axle, mm", 1e3 * footprint.ahead, -7.4, 0.4);
+    const double reach = 5e-3; // more than room for dynamic forces and a cell beside the patch
+    check.that("a dip under the patch is met", !misses_defect(*dipped));
+    check.that("a dip before the patch comes is not met",
+               misses_defect(*with_dip(smooth->path_begin() + footprint.ahead - reach - length, y_middle)));
+    check.that("a dip between axle and patch at the end is not met",
+               misses_defect(*with_dip(smooth->meshed_end() + footprint.ahead + reach, y_middle)));
+    check.that("a dip on the middle of the head is not met", misses_defect(*with_dip(x_begin, 0.)));
+    const auto on_dip = doubts(*with_dip(smooth->path_begin() + footprint.ahead - 0.5 * length, y_middle));
+    check.that("a wheelset that begins on a dip is named",
+               std::any_of(on_dip.begin(), on_dip.end(), [](const std::string &doubt) {
+                 return doubt.find("begins on the defect") != doubt.npos;
+               }));
+  }
+
+
   /// Finest cells that reach beyond the profile are refused, with how far they and it reach.
   void check_beyond_profile(tests::Check &check)
   {
@@ -1374,6 +1440,7 @@ TREAD_TEST(scene_parts)(tests::Check &check, const tests::Arguments &)
   check_negligible_slip(check);
   check_compared_traction(check);
   check_wheelset(check);
+  check_defect_of_wheelset(check);
   check_beyond_profile(check);
   check_touched_piece(check);
   check_figures_of_patches(check);

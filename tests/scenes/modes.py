@@ -92,6 +92,9 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("nan", ["--up-to", "nan"], ["--up-to", "between"])
     must_fail("no number", ["--up-to", "high"], ["--up-to", "high"])
     must_fail("of a run", ["--up-to", "500"], ["--up-to", "modes"], command="run")
+    for moving, words in (("co-running", "moves on with the wheel"), ("beam", "waves leave along the beam")):
+        must_fail(f"on a base that moves: {moving}", [word for setting in (f"Track/Foundation={moving}", "Rail/Shape=head", "Track/Sleepers=mass") for word in ("-s", setting)],
+                  [f"'Track/Foundation' {moving}", words])
     must_fail("with --resume", ["--resume"], ["--resume", "tread modes --help"])
 
 check.exit()

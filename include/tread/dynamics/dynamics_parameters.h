@@ -4,27 +4,33 @@
 
 namespace tread
 {
-  struct DynamicsParameters
+  /// From where on a motion is not that of steel any more.
+  struct MotionLimits
   {
-    /// Time step over the critical one.
-    double courant_number = 0.9;
-    /// Stiffness-proportional damping: internal forces are taken at x + beta v with
-    /// beta = damping_steps time steps.
-    double damping_steps = 0.1;
-    /// Mass-proportional damping of the motion relative to the rigid motion, 1/s: for quasi-static scenes.
-    double mass_damping  = 0.;
-    double density_scale = 1.;
-    double gravity       = 9.81; ///< m/s^2, along -z
     /// A cell with more strain (Green-Lagrange, Frobenius' norm) stops a run.
-    double largest_strain = 0.5;
+    double strain = 0.5;
     /// A cell with less of its volume stops a run: where this is pressed so far, strains that are smaller
     /// than the largest allowed are large as well.
-    double least_volume = 0.3;
+    double volume = 0.3;
     /// A node that moves faster is part of an instability, m/s. A wheel's rim moves at up to twice the speed
     /// of the train, 170 m/s at 300 km/h, and a pressure wave of 1000 m/s would carry a stress of rho c v =
     /// 46 GPa, a hundred times the strength of steel. An unstable motion grows exponentially, so that half or
     /// double the limit finds it a few steps earlier or later.
-    double largest_speed = 1e3;
+    double node_speed = 1e3;
+  };
+
+  struct DynamicsParameters
+  {
+    /// Time step over the critical one.
+    double courant_number = 0.95;
+    /// Stiffness-proportional damping: internal forces are taken at x + beta v with
+    /// beta = damping_steps time steps.
+    double damping_steps = 0.1;
+    /// Mass-proportional damping of the motion relative to the rigid motion, 1/s: for quasi-static scenes.
+    double       mass_damping  = 0.;
+    double       density_scale = 1.;
+    double       gravity       = 9.81; ///< m/s^2, along -z
+    MotionLimits stop_at;
     /// Interval, in steps of all cells, at which the energy dissipated by stiffness damping and bulk
     /// viscosity is sampled, with two more force evaluations. With levels, whose steps update fewer cells, it
     /// is as many times longer, in whole steps of the longest level. Power is assumed to vary linearly in

@@ -58,10 +58,10 @@ namespace tread
       Number(-90., 90.), most_rows);
     add_factors("Friction inclination factors", inclination_factors, "inclinations");
     section.add(
-      "Tolerance", tolerance,
+      "Tolerance", solver.tolerance,
       "Sweeps over the contact nodes end when no impulse changes by more than this share of the largest.",
       Number(1e-15, 0.1));
-    section.add("Largest number of sweeps", max_sweeps, "Limit of the sweeps in one time step.",
+    section.add("Largest number of sweeps", solver.max_sweeps, "Limit of the sweeps in one time step.",
                 WholeNumber(1, 100000));
   }
 

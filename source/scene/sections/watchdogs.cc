@@ -29,11 +29,11 @@ namespace tread
                 "A run stops where more energy than this share of what was dissipated or, if that is more, "
                 "is stored as strain is not accounted for. Looked at with each row of history.csv.",
                 positive);
-    section.add("Stop at strain", stop_at_strain,
+    section.add("Stop at strain", stop_at.strain,
                 "A run stops where a cell has a larger strain (Green-Lagrange, Frobenius' norm).", positive);
-    section.add("Stop at volume", stop_at_volume,
+    section.add("Stop at volume", stop_at.volume,
                 "A run stops where a cell has less of its volume before deformation.", Number(0., 1.));
-    section.add("Stop at node speed (m per s)", stop_at_node_speed,
+    section.add("Stop at node speed (m per s)", stop_at.node_speed,
                 "A run stops where a node is faster: an unstable step.", positive);
   }
 } // namespace tread

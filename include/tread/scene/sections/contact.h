@@ -3,6 +3,7 @@
 #define tread_scene_sections_contact_h
 
 #include <tread/base/section.h>
+#include <tread/contact/coulomb_solver.h>
 #include <tread/contact/friction_law.h>
 
 namespace tread
@@ -10,15 +11,14 @@ namespace tread
   /// Section `Contact`.
   struct ContactSection
   {
-    double              friction_coefficient = 0.5;       ///< without slip
-    std::string         friction_law         = "Coulomb"; ///< its name in the list of laws
-    double              tolerance            = 1e-7;      ///< of the sweeps, share of the largest impulse
-    unsigned int        max_sweeps           = 200;
-    std::vector<double> friction_places, friction_factors;    ///< along the rail, m and -
-    std::vector<double> friction_pressures, pressure_factors; ///< Pa and -
-    std::vector<double> temperatures, temperature_factors;    ///< degrees C and -
-    std::vector<double> across_places, across_factors;        ///< y of the rail, m and -
-    std::vector<double> inclinations, inclination_factors;    ///< of the rail's surface, rad and -
+    double                  friction_coefficient = 0.5;       ///< without slip
+    std::string             friction_law         = "Coulomb"; ///< its name in the list of laws
+    CoulombSolverParameters solver;
+    std::vector<double>     friction_places, friction_factors;    ///< along the rail, m and -
+    std::vector<double>     friction_pressures, pressure_factors; ///< Pa and -
+    std::vector<double>     temperatures, temperature_factors;    ///< degrees C and -
+    std::vector<double>     across_places, across_factors;        ///< y of the rail, m and -
+    std::vector<double>     inclinations, inclination_factors;    ///< of the rail's surface, rad and -
 
     /// Of the friction coefficient at x (m), linear between the places.
     double friction_factor(const double x) const;

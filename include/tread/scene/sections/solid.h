@@ -3,25 +3,16 @@
 #define tread_scene_sections_solid_h
 
 #include <tread/base/section.h>
-#include <tread/solid/solid.h>
+#include <tread/dynamics/dynamics_parameters.h>
+#include <tread/solid/element.h>
 
 namespace tread
 {
-  /// Section `Solid`.
-  struct SolidSection
+  /// Section `Solid`: of the parameters of cells those that do not follow from other sections, and damping.
+  struct SolidSection : SolidParameters
   {
-    std::string element               = elements().front().name;
-    double      hourglass_coefficient = 1.;
-    bool        matched_surface       = true;
-    double      surface_damping       = 0.5;
-    double      stiffness_damping     = 0.1; ///< time steps
-    double      mass_damping          = 0.;  ///< 1/s
-    double      linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
-
-    bool has_bulk_viscosity() const
-    {
-      return linear_bulk_viscosity != 0. || quadratic_bulk_viscosity != 0.;
-    }
+    double stiffness_damping = DynamicsParameters().damping_steps; ///< time steps
+    double mass_damping      = DynamicsParameters().mass_damping;  ///< 1/s
 
     void declare(ParameterTable &table);
     /// @throws InputError

@@ -3,6 +3,7 @@
 #define tread_scene_sections_watchdogs_h
 
 #include <tread/base/section.h>
+#include <tread/dynamics/dynamics_parameters.h>
 #include <tread/output/quality.h>
 
 namespace tread
@@ -11,10 +12,8 @@ namespace tread
   struct WatchdogSection
   {
     QualityLimits warn;
-    double        stop_at_residual   = 0.5; ///< of what is dissipated or, if that is more, stored as strain
-    double        stop_at_strain     = 0.5; ///< Green-Lagrange, Frobenius' norm
-    double        stop_at_volume     = 0.3; ///< over the undeformed one
-    double        stop_at_node_speed = 1e3; ///< m/s
+    MotionLimits  stop_at;
+    double        stop_at_residual = 0.5; ///< of what is dissipated or, if that is more, stored as strain
 
     void declare(ParameterTable &table);
   };
