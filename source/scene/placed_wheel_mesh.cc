@@ -113,10 +113,12 @@ namespace tread
                      const Wandering::OnBody &wanders = {})
     {
       // Contact that a plane does not stand for may reach farther than in one.
-      const double                   wider = 1.1 + 0.3 * patch.turn;
-      const reference::PlanarResult &r     = patch.solution;
-      const double                   x     = x_reference + 0.5 * (r.x_begin + r.x_end),
-                   begin                   = parameter_at(profile, patch, s, r.y_begin),
+      // A load that doubles or triples over a defect makes the patch wider by its cube root.
+      constexpr double room_for_dynamic_load = 1.35;
+      const double wider = (scene.shapes().defect ? room_for_dynamic_load : 1.) * (1.1 + 0.3 * patch.turn);
+      const reference::PlanarResult &r = patch.solution;
+      const double                   x = x_reference + 0.5 * (r.x_begin + r.x_end),
+                   begin               = parameter_at(profile, patch, s, r.y_begin),
                    end = parameter_at(profile, patch, s, r.y_end), half_width = 0.5 * (end - begin);
       FineZone zone;
       zone.finest_cell_size = scene.mesh.finest_cell;

@@ -84,7 +84,7 @@ TREAD_TEST(dynamics_cells)(tests::Check &check, const tests::Arguments &)
     return 0.5 * g * std::sqrt(2. + g * g);
   };
   double g = 0.1;
-  while (strain(g) < DynamicsParameters().largest_strain)
+  while (strain(g) < MotionLimits().strain)
     g += 0.001;
   const std::string strained = complaint(sheared(g), .5, growth);
   check.that("strained too much: said, with the parameter",

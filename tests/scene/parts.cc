@@ -78,8 +78,8 @@ namespace scene_parts
     check.relative("dynamics: mass damping, 1/s", dynamics.mass_damping, 31., 0.);
     check.relative("dynamics: density scale", dynamics.density_scale, 4., 0.);
     check.relative("dynamics: gravity, m/s2", dynamics.gravity, 9.7, 0.);
-    check.relative("dynamics: largest strain", dynamics.largest_strain, 0.37, 0.);
-    check.relative("dynamics: largest speed, m/s", dynamics.largest_speed, 812., 0.);
+    check.relative("dynamics: largest strain", dynamics.stop_at.strain, 0.37, 0.);
+    check.relative("dynamics: largest speed, m/s", dynamics.stop_at.node_speed, 812., 0.);
 
     const ContactParameters contact = contact_parameters(*scene);
     check.relative("contact: tolerance", contact.solver.tolerance, 3e-7, 0.);
