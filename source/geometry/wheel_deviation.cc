@@ -17,7 +17,8 @@ namespace tread
 {
   namespace
   {
-    constexpr double pi = std::numbers::pi, degree = pi / 180.;
+    using std::numbers::pi;
+    constexpr double degree = pi / 180.;
 
     /// A scan whose ends or seam differ by less joins without a step that anybody measures, m.
     constexpr double no_step = 20e-6;

@@ -27,8 +27,9 @@ with tempfile.TemporaryDirectory() as folder:
     path = lambda name: os.path.join(folder, name)
 
     # The middle of the path is given to all of the rail, before and behind the path too.
-    three = ROLLED + ["Motion/Passages=3", "Output/Table depth (mm)=4"]
+    three = ROLLED + ["Motion/Passages=3", "Output/Table depth (mm)=4", "Ratcheting/Longest jump=7"]
     uniform = run(program, SCENE, path("uniform"), three)
+    check.that("what has no effect without jumps is named", any("Longest jump" in line for line in uniform["unused_parameters"]))
     cells = columns(path("uniform"), "rail_cells.csv")
     check.that("rail cells of the table are there", len(cells["x_mm"]) > 100)
     ahead = cells["x_mm"] > 12.
@@ -139,6 +140,4 @@ with tempfile.TemporaryDirectory() as folder:
                            ("Rolled between jumps", "Ratcheting/Rolled between jumps=2"), ("Irregularity", "Ratcheting/Irregularity (%)=-1"),
                            ("Strain of a jump", "Ratcheting/Strain of a jump (%)=50"), ("Longest jump", "Ratcheting/Longest jump=1")):
         check.refused(setting, program, SCENE, path("refused"), COARSE + [setting], [words])
-    unused = run(program, SCENE, path("unused"), ROLLED + ["Motion/Passages=2", "Ratcheting/Longest jump=7"])
-    check.that("what has no effect without jumps is named", any("Longest jump" in line for line in unused["unused_parameters"]))
 check.exit()
