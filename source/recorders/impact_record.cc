@@ -39,7 +39,8 @@ namespace tread
 
   void ImpactRecord::add(const HistoryRow &row, const double seconds)
   {
-    const double force = row.wheels.front().force[2];
+    // Of a wheelset with both wheels the own one, whose rail has the defect.
+    const double force = row.wheels.front().force[2] - row.wheels.front().other_force[2];
     if (!has_rows || force > largest.value)
       largest = {force, row.position, 0};
     if (!has_rows || force < least.value)

@@ -224,32 +224,6 @@ namespace tread
                 text_in_mm(scene.rail_begin()) + " to " + text_in_mm(scene.rail_end()) +
                 " mm at least in part");
     }
-
-    void check_ratcheting(const Scene &scene)
-    {
-      const bool fails = scene.ratcheting.strain_at_failure > 0.;
-      if (!fails && !scene.ratcheting.jumps && !scene.ratcheting.uniform)
-        return;
-      const std::string name = fails                    ? "'Ratcheting/Strain at failure (%)'"
-                               : scene.ratcheting.jumps ? "'Ratcheting/Jumps'"
-                                                        : "'Ratcheting/Uniform rail'";
-      require(scene.motion.passages > 1, name + " needs several 'Motion/Passages'");
-      require(scene.rail.material.yield_stress > 0. || !scene.rail.material.plastic_zones.empty(),
-              name + " needs a rail that yields: 'Rail/Yield stress (MPa)'");
-      require(
-        !scene.ratcheting.uniform ||
-          (!scene.is_positioned() && !scene.shapes().defect && !scene.rail.is_meshed() &&
-           scene.n_wheels() == 1 && scene.rail.material.plastic_zones.empty()),
-        "'Ratcheting/Uniform rail' needs one wheel that stands upright and a rail that is alike along its "
-        "length: no defect, mesh file, slices or plastic zones");
-      if (!scene.ratcheting.jumps)
-        return;
-      require(!scene.damage.record,
-              "'Ratcheting/Jumps' cannot be had with 'Damage/Record', which sums what is rolled");
-      require(scene.ratcheting.rolled_between < scene.motion.passages,
-              "'Ratcheting/Rolled between jumps' " + std::to_string(scene.ratcheting.rolled_between) +
-                " must be below 'Motion/Passages', " + std::to_string(scene.motion.passages));
-    }
   } // namespace
 
 
@@ -305,6 +279,33 @@ namespace tread
               std::string(name) + " " + text_in_mm(size) +
                 " is lost between the nodes; at least twice 'Mesh/Finest cell (mm)', " +
                 text_in_mm(2. * scene.mesh.finest_cell));
+  }
+
+
+  void check_ratcheting(const Scene &scene)
+  {
+    const bool fails = scene.ratcheting.strain_at_failure > 0.;
+    if (!fails && !scene.ratcheting.jumps && !scene.ratcheting.uniform)
+      return;
+    const std::string name = fails                    ? "'Ratcheting/Strain at failure (%)'"
+                             : scene.ratcheting.jumps ? "'Ratcheting/Jumps'"
+                                                      : "'Ratcheting/Uniform rail'";
+    require(scene.motion.passages > 1, name + " needs several 'Motion/Passages'");
+    require(scene.rail.material.yield_stress > 0. || !scene.rail.material.plastic_zones.empty(),
+            name + " needs a rail that yields: 'Rail/Yield stress (MPa)'");
+    require(
+      !scene.ratcheting.uniform ||
+        (!scene.is_positioned() && !scene.shapes().defect && !scene.rail.is_meshed() &&
+         scene.n_wheels() == 1 && scene.rail.material.plastic_zones.empty()),
+      "'Ratcheting/Uniform rail' needs one wheel that stands upright and a rail that is alike along its "
+      "length: no defect, mesh file, slices or plastic zones");
+    if (!scene.ratcheting.jumps)
+      return;
+    require(!scene.damage.record,
+            "'Ratcheting/Jumps' cannot be had with 'Damage/Record', which sums what is rolled");
+    require(scene.ratcheting.rolled_between < scene.motion.passages,
+            "'Ratcheting/Rolled between jumps' " + std::to_string(scene.ratcheting.rolled_between) +
+              " must be below 'Motion/Passages', " + std::to_string(scene.motion.passages));
   }
 
 
@@ -384,7 +385,7 @@ namespace tread
     if (scene.peak_stress.place == PeakPlace::trailing_edge && scene.shapes().defect)
       {
         const Defect &made = *scene.shapes().defect;
-        const double  off = std::abs(made.y_middle - scene.shapes().first_contact.y) - peak_half_width(scene);
+        const double  off  = std::abs(made.y_middle - scene.stance().patch_y()) - peak_half_width(scene);
         require(
           off < 0.5 * made.width,
           "the region of 'Peak stress' does not meet the defect, whose 'Defect/Lateral position (mm)' is " +

@@ -90,18 +90,17 @@ namespace tread
         return "";
       constexpr unsigned int n    = 5; // places over the patch, along and across
       const Defect          &made = *scene.shapes().defect;
-      const double           a    = scene.stance().ellipse(scene.static_load()).semi_axis_x;
       for (unsigned int number = 0; number < scene.n_wheels(); ++number)
         for (const WheelStance::Footprint &patch : scene.stance().footprints())
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = 0; j < n; ++j)
-              if (std::abs(made.height(scene.path_begin(number) + patch.ahead + a * (2. * i / (n - 1.) - 1.),
-                                       patch.begin + (patch.end - patch.begin) * j / (n - 1.))) >
-                  least_height)
+              if (std::abs(made.height(
+                    scene.path_begin(number) + patch.x_begin + (patch.x_end - patch.x_begin) * i / (n - 1.),
+                    patch.y_begin + (patch.y_end - patch.y_begin) * j / (n - 1.))) > least_height)
                 return format("the wheel begins on the defect: its patch at rest, around x = %.2f mm, lies "
                               "in part on it, so that the way into the defect is missing; move "
                               "'Defect/Position (mm)' or 'Motion/Start (mm)'",
-                              1e3 * (scene.path_begin(number) + patch.ahead));
+                              1e3 * (scene.path_begin(number) + 0.5 * (patch.x_begin + patch.x_end)));
       return "";
     }
 
@@ -176,11 +175,12 @@ namespace tread
       std::string   patches;
       for (const WheelStance::Footprint &patch : scene.stance().footprints())
         {
-          patches +=
-            (patches.empty() ? "" : " and ") + format("%.2f to %.2f mm", 1e3 * patch.begin, 1e3 * patch.end);
-          if (std::abs(patch.ahead) >= scene.mesh.finest_cell)
-            patches += format(", %.2f mm %s the axle", 1e3 * std::abs(patch.ahead),
-                              patch.ahead > 0. ? "ahead of" : "behind");
+          const double ahead = 0.5 * (patch.x_begin + patch.x_end);
+          patches += (patches.empty() ? "" : " and ") +
+                     format("%.2f to %.2f mm", 1e3 * patch.y_begin, 1e3 * patch.y_end);
+          if (std::abs(ahead) >= scene.mesh.finest_cell)
+            patches +=
+              format(", %.2f mm %s the axle", 1e3 * std::abs(ahead), ahead > 0. ? "ahead of" : "behind");
         }
       return format(
         "the contact does NOT reach the defect, from %.2f to %.2f mm: the wheel rolls from %.2f to %.2f "
@@ -380,13 +380,13 @@ namespace tread
     constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
     const double           a       = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     double                 largest = 0.;
-    std::vector<double>    lines;        // across
-    Scene::Range           reach{-a, a}; // from the axle
+    std::vector<double>    lines;         // across
+    Scene::Range           reach{0., 0.}; // from the axle
     for (const WheelStance::Footprint &patch : scene.stance().footprints())
       {
         for (unsigned int line = 0; line < n_across; ++line)
-          lines.push_back(patch.begin + (patch.end - patch.begin) * (line + 0.5) / n_across);
-        reach = {std::min(reach.begin, patch.ahead - a), std::max(reach.end, patch.ahead + a)};
+          lines.push_back(patch.y_begin + (patch.y_end - patch.y_begin) * (line + 0.5) / n_across);
+        reach = {std::min(reach.begin, patch.x_begin), std::max(reach.end, patch.x_end)};
       }
     const auto look = [&](const double cell, const double from, const double to, const bool alike,
                           const std::function<double(double, double)> &height) {
@@ -488,20 +488,19 @@ namespace tread
   bool misses_defect(const Scene &scene)
   {
     const Defect &made = *scene.shapes().defect;
-    if (scene.static_load() <= 0.)
+    // A wheelset that is moved or moves across may come to it later.
+    if (scene.static_load() <= 0. || scene.guidance.kind != Guidance::rigid)
       return false;
-    const Scene::Range beyond = reach_of(scene, -extremes_of(made.shape).first * made.depth);
-    // As wide as the zone of fine cells would be, for what inertia adds to the load.
-    constexpr double room = 1.35;
-    const double     a =
-      room * scene.stance().ellipse(scene.static_load()).semi_axis_x + scene.mesh.finest_cell + beyond.begin;
+    const Scene::Range  beyond = reach_of(scene, -extremes_of(made.shape).first * made.depth);
     std::vector<double> begins(made.repeated_at);
     begins.push_back(made.begin);
     const auto is_met = [&](const WheelStance::Footprint &patch, const double path_begin) {
-      const double middle     = 0.5 * (patch.begin + patch.end),
-                   half_width = room * 0.5 * (patch.end - patch.begin) + scene.mesh.finest_cell + beyond.end,
-                   from = path_begin + patch.ahead - a, to = from + scene.motion.meshed_distance() + 2. * a;
-      return std::abs(made.y_middle - middle) <= half_width + 0.5 * made.width &&
+      const double along  = 0.5 * room_for_dynamic_load * (patch.x_end - patch.x_begin) + beyond.begin,
+                   across = 0.5 * room_for_dynamic_load * (patch.y_end - patch.y_begin) + beyond.end,
+                   cell = scene.mesh.finest_cell, middle = path_begin + 0.5 * (patch.x_begin + patch.x_end),
+                   from = middle - along - cell, to = middle + scene.motion.meshed_distance() + along + cell;
+      return std::abs(made.y_middle - 0.5 * (patch.y_begin + patch.y_end)) <=
+               across + cell + 0.5 * made.width &&
              std::any_of(begins.begin(), begins.end(),
                          [&](const double begin) { return begin < to && begin + made.length > from; });
     };

@@ -24,10 +24,8 @@ namespace tread
   {
     if (scene.mesh.fine_half_width > 0.)
       return scene.mesh.fine_half_width;
-    // A load that doubles or triples makes the patch wider by its cube root; a wheel that is not round
-    // touches beside it.
-    constexpr double room_for_dynamic_load = 1.35;
-    const double     of_round =
+    // A wheel that is not round touches beside the patch.
+    const double of_round =
       (scene.general.quasi_static ? 1. : room_for_dynamic_load) * needed_half_width(scene);
     if (scene.shapes().is_round())
       return of_round;

@@ -87,10 +87,9 @@ namespace tread
                                             : "'Wheel/Mass (kg)' and 'Vehicle/Sprung mass (kg)' press") +
               " a wheel with " + text_of(1e-3 * static_load()) + " kN; at most " +
               text_of(1e-3 * largest_load));
-    // Some meshes resonate with steps of unlike length at 0.95; 0.93 was enough for all that did.
-    constexpr double largest_with_levels = 0.9;
     if (time_stepping.levels > 1 && solid.mass_damping == 0.)
-      time_stepping.courant_number = std::min(time_stepping.courant_number, largest_with_levels);
+      time_stepping.courant_number =
+        std::min(time_stepping.courant_number, DynamicsParameters::largest_courant_with_levels);
     note_files(input, *this);
     guidance.check(wheelset.both_wheels);
     if (guidance.kind == Guidance::file)

@@ -48,7 +48,7 @@ namespace tread
 
   SolidParameters solid_parameters(const Scene &scene)
   {
-    SolidParameters p = scene.solid;
+    SolidParameters p{scene.solid};
     if (!p.matched_surface)
       p.surface_damping = 0.;
     p.density_scale = scene.general.density_scale;

@@ -145,9 +145,13 @@ namespace tread
     for (const WheelPatch &patch : sides().front().contact.patches)
       {
         const ContactAxes contact_axes = axes(patch);
-        all.push_back({contact_axes.origin[0] + 0.5 * (patch.solution.x_begin + patch.solution.x_end),
-                       contact_axes.origin[1] + patch.solution.y_begin * contact_axes.along[1],
-                       contact_axes.origin[1] + patch.solution.y_end * contact_axes.along[1]});
+        const auto        across       = [&](const double s) {
+          const Vector3 p = contact_axes.origin + s * contact_axes.along;
+          return scene.rail.in_own_axes({p[0], p[1], p[2]})[1];
+        };
+        const reference::PlanarResult &solution = patch.solution;
+        all.push_back({contact_axes.origin[0] + solution.x_begin, contact_axes.origin[0] + solution.x_end,
+                       across(solution.y_begin), across(solution.y_end)});
       }
     return all;
   }
@@ -317,28 +321,28 @@ namespace tread
     const dealii::Tensor<1, 2> in_section({side * contact_axes.along[1], contact_axes.along[2]});
     const CurveFromAbove      &rail = surfaces.rail();
     const double               s    = rail.parameter(std::clamp(from[0], rail.begin(), rail.end()));
-    const double               below =
-      over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, contact_axes.normal);
     return {arm[0], beside,
-            below + (patch.is_of_other_wheel ? 0. : lift_above(p, below, contact_axes.normal))};
+            over_plane(rail.curve(), s, from, in_section, beside) - dot(arm, contact_axes.normal)};
   }
 
 
-  double PlacedWheel::lift_above(const dealii::Point<3> &p, const double below, const Vector3 &normal) const
+  double PlacedWheel::depth_under(const dealii::Point<3> &p, const WheelPatch &patch) const
   {
-    const auto &defect = scene.shapes().defect;
-    if (!defect)
-      return 0.;
-    const dealii::Point<3> on_top(p[0], p[1] + below * normal[1], p[2] + below * normal[2]);
+    const double smooth = place_in_rail(p, patch).below;
+    const auto  &defect = scene.shapes().defect;
+    if (!defect || patch.is_of_other_wheel)
+      return smooth;
+    const Vector3          normal = vector(patch.normal());
+    const dealii::Point<3> on_top(p[0], p[1] + smooth * normal[1], p[2] + smooth * normal[2]);
     const double           angle = scene.rail.angle();
-    return defect->height(on_top[0], scene.rail.in_own_axes(on_top)[1]) *
-           (-std::sin(angle) * normal[1] + std::cos(angle) * normal[2]);
+    return smooth + defect->height(on_top[0], scene.rail.in_own_axes(on_top)[1]) *
+                      (-std::sin(angle) * normal[1] + std::cos(angle) * normal[2]);
   }
 
 
   double PlacedWheel::depth_in_rail(const dealii::Point<3> &p) const
   {
-    return place_in_rail(p, patches()[nearest_patch(Vector3{p[0], p[1], p[2], 0.})]).below;
+    return depth_under(p, patches()[nearest_patch(Vector3{p[0], p[1], p[2], 0.})]);
   }
 
 
@@ -350,8 +354,7 @@ namespace tread
     };
     if (slices.pieces.empty())
       {
-        const Place place = place_in_rail(p, main_patch());
-        return is_on(place.beside, place.below);
+        return is_on(place_in_rail(p, main_patch()).beside, depth_under(p, main_patch()));
       }
     const TouchedPiece        *on    = nullptr;
     const TouchedPiece::Touch *touch = nullptr;

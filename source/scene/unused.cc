@@ -44,12 +44,12 @@ namespace tread
                         text_in_mm(scene.path_begin(scene.last_wheel())) + " to " +
                         text_in_mm(scene.meshed_end()) + " mm: the friction factor is " +
                         text_of(scene.contact.friction_factor(scene.path_begin())) + " on all of it");
-      if (const auto &places = scene.contact.across_places; !places.empty())
-        for (const WheelStance::Footprint &patch : scene.stance().footprints())
-          if (places.front() > patch.end || places.back() < patch.begin)
-            lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
-                            text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +
-                            " mm: the factor is the same on all of it");
+      if (const auto &places = scene.contact.across_places; !places.empty() && !scene.is_positioned())
+        if (const PatchExtent &patch = scene.shapes().patch;
+            places.front() > patch.end || places.back() < patch.begin)
+          lines.push_back("'Contact/Friction across (mm)' all lie beside the patch, from " +
+                          text_in_mm(patch.begin) + " to " + text_in_mm(patch.end) +
+                          " mm: the factor is the same on all of it");
       if (const auto &pressures = scene.contact.friction_pressures;
           !pressures.empty() && (pressures.front() > largest_pressure || pressures.back() < least_pressure))
         lines.push_back("'Contact/Friction pressures (MPa)', from " + text_of(1e-6 * pressures.front()) +

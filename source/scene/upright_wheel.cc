@@ -109,7 +109,8 @@ namespace tread
 
   std::vector<WheelStance::Footprint> UprightWheel::footprints() const
   {
-    return {{0., scene.shapes().patch.begin, scene.shapes().patch.end}};
+    const double a = scene.static_load() > 0. ? ellipse(scene.static_load()).semi_axis_x : 0.;
+    return {{-a, a, scene.shapes().patch.begin, scene.shapes().patch.end}};
   }
 
 

@@ -297,6 +297,7 @@ namespace tread
             "wheel's circumference, " +
               text_in_mm(longest_sector(scene)) + ", where 'Wheelset' has a position");
     check_plasticity(scene);
+    check_ratcheting(scene);
     check_numerics(scene);
   }
 

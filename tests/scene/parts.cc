@@ -1224,7 +1224,7 @@ namespace scene_parts
   /// over.
   void check_defect_of_wheelset(tests::Check &check)
   {
-    constexpr double depth = 0.1e-3, length = 14e-3, width = 6e-3, y_middle = -35e-3, angle_tan = 1. / 40.;
+    constexpr double depth = 0.1e-3, length = 14e-3, width = 6e-3, angle_tan = 1. / 40.;
     Settings         at_corner{
       "Rail/Inclination=1:40",    "Wheel/Tread profile=S1002",      "Wheelset/Lateral shift (mm)=6",
       "Wheelset/Yaw (mrad)=14.4", "Wheelset/Roll (mrad)=-0.6272",   "Contact/Friction coefficient=0",
@@ -1237,9 +1237,12 @@ namespace scene_parts
                                   "Defect/Lateral position (mm)=" + std::to_string(1e3 * y)});
     };
     const double x_begin = -30e-3, cosine = 1. / std::hypot(1., angle_tan), sine = cosine * angle_tan;
-    const auto   smooth = scene_of(at_corner), dipped = with_dip(x_begin, y_middle);
-    const Body   before = smooth->stance().make_bodies({}).front(),
-               behind   = dipped->stance().make_bodies({}).front();
+    const auto   smooth    = scene_of(at_corner);
+    const auto   footprint = smooth->stance().footprints().front();
+    const double y_middle  = 0.5 * (footprint.y_begin + footprint.y_end);
+    const auto   dipped    = with_dip(x_begin, y_middle);
+    const Body   before    = smooth->stance().make_bodies({}).front(),
+               behind      = dipped->stance().make_bodies({}).front();
     double off = 0., off_depth = 0., deepest = 0.;
     for (double x = x_begin - 1e-3; x < x_begin + length; x += 0.9e-3)
       for (double along = -6e-3; along <= 6e-3; along += 0.7e-3)
@@ -1256,29 +1259,48 @@ namespace scene_parts
             if (down == 0.)
               off_depth = std::max(off_depth, std::abs(dipped->stance().depth_in_rail(q)));
           }
-    check.below("defect of a wheelset: nodes off their places, um", 1e6 * off, 1e-6);
+    // Its place is read with six decimals of a millimetre.
+    check.below("defect of a wheelset: nodes off their places, um", 1e6 * off, 1e-4);
     check.absolute("defect of a wheelset: depth of what was looked at, mm", 1e3 * deepest, 0.1, 0.01);
-    // Known: depth is measured along the normal, at 24 degrees to the vertical, where the dip's slope is 6 %.
-    check.below("defect of a wheelset: depth of its surface below itself, um", 1e6 * off_depth, 3.);
+    // Known: along the normal the defect is looked at beside the place, by less than its depth, over which it
+    // has at most its largest slope across.
+    check.below("defect of a wheelset: depth of its surface below itself, um", 1e6 * off_depth,
+                1e6 * depth * 4. * depth / width);
 
-    // The patch is the half-space's, which tells its elements.
-    const auto lines         = smooth->stance().loaded_lines();
-    const auto footprint     = smooth->stance().footprints().front();
-    const auto [low, high]   = std::minmax_element(lines.begin(), lines.end());
-    constexpr double element = 0.3e-3;
-    check.absolute("footprint of a wheelset: low edge, mm", 1e3 * footprint.begin, 1e3 * low->first,
-                   1e3 * element);
-    check.absolute("footprint of a wheelset: high edge, mm", 1e3 * footprint.end, 1e3 * high->first,
-                   1e3 * element);
-    check.absolute("footprint of a wheelset: ahead of the axle, mm", 1e3 * footprint.ahead, -7.4, 0.4);
-    const double reach = 5e-3; // more than room for dynamic forces and a cell beside the patch
+    // The patch is the half-space's: its outermost elements end half of their distance beside their middles.
+    const WheelPatch   &patch = smooth->placed_wheel().patches().front();
+    const ContactAxes   axes  = smooth->placed_wheel().axes(patch);
+    std::vector<double> lines;
+    for (const auto &[y, pressure] : smooth->stance().loaded_lines())
+      lines.push_back(y);
+    std::sort(lines.begin(), lines.end());
+    const double element     = *std::find_if(lines.begin(), lines.end(), [&](const double y) {
+      return y > lines.front() + 1e-6;
+    }) - lines.front();
+    const auto   in_own_axes = [&](const double y) {
+      return cosine * y + sine * (axes.origin[2] + (y - axes.origin[1]) * std::tan(patch.angle()));
+    };
+    check.absolute("footprint of a wheelset: low edge, mm", 1e3 * footprint.y_begin,
+                   1e3 * in_own_axes(lines.front() - 0.5 * element), 1e-6);
+    check.absolute("footprint of a wheelset: high edge, mm", 1e3 * footprint.y_end,
+                   1e3 * in_own_axes(lines.back() + 0.5 * element), 1e-6);
+    const double ahead = 0.5 * (footprint.x_begin + footprint.x_end);
+    check.absolute("footprint of a wheelset: ahead of the axle, mm", 1e3 * ahead, -7.4, 0.4);
+    const double reach = footprint.x_end - footprint.x_begin; // more than room for dynamic forces and a cell
     check.that("a dip under the patch is met", !misses_defect(*dipped));
+    check.that(
+      "a dip that ends under the edge of the patch at the start is met",
+      !misses_defect(*with_dip(smooth->path_begin() + footprint.x_begin - length + 0.5e-3, y_middle)));
+    check.that("a wheelset that moves across may come to a dip",
+               !misses_defect(*scene_of(at_corner, {"Scene/Quasi-static=false", "Guidance/Kind=springs",
+                                                    "Guidance/Yaw inertia (kg m2)=47", "Defect/Shape=dip",
+                                                    "Defect/Length (mm)=14", "Defect/Depth (mm)=0.1"})));
     check.that("a dip before the patch comes is not met",
-               misses_defect(*with_dip(smooth->path_begin() + footprint.ahead - reach - length, y_middle)));
+               misses_defect(*with_dip(smooth->path_begin() + ahead - reach - length, y_middle)));
     check.that("a dip between axle and patch at the end is not met",
-               misses_defect(*with_dip(smooth->meshed_end() + footprint.ahead + reach, y_middle)));
+               misses_defect(*with_dip(smooth->meshed_end() + ahead + reach, y_middle)));
     check.that("a dip on the middle of the head is not met", misses_defect(*with_dip(x_begin, 0.)));
-    const auto on_dip = doubts(*with_dip(smooth->path_begin() + footprint.ahead - 0.5 * length, y_middle));
+    const auto on_dip = doubts(*with_dip(smooth->path_begin() + ahead - 0.5 * length, y_middle));
     check.that("a wheelset that begins on a dip is named",
                std::any_of(on_dip.begin(), on_dip.end(), [](const std::string &doubt) {
                  return doubt.find("begins on the defect") != doubt.npos;

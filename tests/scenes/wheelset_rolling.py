@@ -167,9 +167,10 @@ with tempfile.TemporaryDirectory() as folder:
     over_wave = {stance: run(program, "smooth-rolling.prm", path(stance), {**WAVE, **own}) for stance, own in STANCES.items()}
     forces = [[(row["position_m"], 1e-3 * row["normal_force_N"]) for row in rows_of(path(stance), "history.csv")] for stance in STANCES]
     static = 7900 * 9.81e-3
-    pairs = [(a[1] - static, b[1] - static) for a, b in zip(*forces) if check.that("a wave: rows at the same places", abs(a[0] - b[0]) < 5e-5)]
+    pairs = [(a[1] - static, b[1] - static) for a, b in zip(*forces, strict=True)]
+    check.that("a wave: a hundred rows, at the same places", len(pairs) > 100 and all(abs(a[0] - b[0]) < 5e-5 for a, b in zip(*forces)))
     check.below("a wave in a position beside upright: RMS of the difference over that of the dynamic force",
-                math.sqrt(sum((a - b) ** 2 for a, b in pairs) / sum(a ** 2 for a, _ in pairs)), 0.01)
+                math.sqrt(sum((a - b) ** 2 for a, b in pairs) / sum(a ** 2 for a, _ in pairs)), 0.02)
     check.below("a wave: least force over the static one", over_wave["in a position"]["least_normal_force_over_static"], 0.7)
     check.that("a wave: no half-space beside it", "half_space_patches" not in over_wave["in a position"] and not os.path.exists(os.path.join(path("in a position"), "reference_patch.csv")))
 
@@ -190,6 +191,9 @@ with tempfile.TemporaryDirectory() as folder:
     DIP = ["Defect/Shape=dip", "Defect/Length (mm)=12", "Defect/Width (mm)=6", "Defect/Depth (mm)=0.1", "Defect/Lateral position (mm)=-35.4"]
     must_fail("a defect without inertia", [*DIP, "Defect/Position (mm)=-18"], "Scene/Density scale", "Defect/Shape")
     must_fail("a defect outside the rail", [*DIP, "Defect/Position (mm)=200"], "lies outside the rail", "Defect/Position (mm)")
+    must_fail("a uniform rail", ["Ratcheting/Uniform rail=true", "Motion/Passages=2", "Rail/Yield stress (MPa)=500"], "Ratcheting/Uniform rail", "stands upright")
+    must_fail("the largest stress where no dip is", [*DIP[:-1], "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0", "Defect/Position (mm)=-25", "Peak stress/Region=trailing edge"],
+              "Peak stress", "does not meet the defect")
     must_fail("a half-space over a defect", [*DIP, "Defect/Position (mm)=-18"], "Defect/Shape", "half-space", command=("reference",))
     must_fail("spin beside the position", ["Motion/Spin (1 per m)=0.1"], "Motion/Spin (1 per m)", "Wheelset")
     must_fail("a short margin", ["Rail/Margin (mm)=9"], "Rail/Margin (mm)", "at least")

@@ -109,6 +109,14 @@ namespace simulation_records
     check.that("in words: the end is no peak",
                growing.words().find("the end of the run, no peak") != std::string::npos);
 
+    // Of both wheels of a wheelset the own one counts, whose rail has the defect: it is in the air.
+    ImpactRecord of_own(static_load, {});
+    HistoryRow   both                  = row_of(1e-3, 83e3);
+    both.wheels.front().other_force[2] = 83e3;
+    of_own.add(both, 2e-3);
+    check.relative("airborne_s of the own wheel of two, ms",
+                   1e3 * figures(of_own)["airborne_s"].get<double>(), 2., 1e-12);
+
     const ImpactRecord nothing(static_load, {});
     ImpactRecord       without(static_load, {});
     without.add(row_of(1e-3, 81e3), 1e-3);

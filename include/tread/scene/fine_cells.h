@@ -9,6 +9,10 @@
 
 namespace tread
 {
+  /// Of a patch under the static load, along and across: a load that doubles or triples makes it larger by
+  /// its cube root.
+  constexpr double room_for_dynamic_load = 1.35;
+
   /// Half width of the zone of finest cells, from the middle of the path: as prescribed, or as the patch
   /// requires, m.
   double fine_half_width(const Scene &scene);

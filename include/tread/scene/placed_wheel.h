@@ -138,6 +138,7 @@ namespace tread
     /// An ellipse of the main patch's length and width, at another vertical force in proportion (N).
     reference::HertzEllipse ellipse(const double vertical_force) const override;
 
+    /// Below the rail without its defect, as zones that may yield are.
     Place place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// @param start_x of the wheel in the reference configuration
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
@@ -157,9 +158,8 @@ namespace tread
     const WheelOnRail surfaces;
 
   private:
-    /// By how much the defect lifts the surface over a place that lies `below` the smooth one, along its
-    /// normal (m).
-    double lift_above(const dealii::Point<3> &p, const double below, const Vector3 &normal) const;
+    /// Depth below the running surface with its defect, along the normal of a patch, m.
+    double depth_under(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// Of slices, where a place is in the piece whose path is nearest.
     Place place_in_slices(const dealii::Point<3> &p) const;
 

@@ -85,11 +85,11 @@ namespace tread
     virtual double factor_across(const Vector3 &place) const = 0;
     /// Lines of the rail under the patches: y (m), and by how much each carries, in any unit.
     virtual std::vector<std::pair<double, double>> loaded_lines() const = 0;
-    /// A patch of the own wheel on the smooth rail at the start: how far it is ahead of the axle, and y in
-    /// the mesh from edge to edge, m.
+    /// A patch of the own wheel on the smooth rail at the start, from edge to edge: along x from the axle,
+    /// and across in the rail's own axes, m.
     struct Footprint
     {
-      double ahead, begin, end;
+      double x_begin, x_end, y_begin, y_end;
     };
     virtual std::vector<Footprint> footprints() const = 0;
     /// How far beside these patches the wheel touches a rail that is higher by this (m); infinite: anywhere.

@@ -15,7 +15,7 @@
 
 namespace tread
 {
-  struct SolidParameters
+  struct ElementParameters
   {
     std::string element = "one-point"; ///< one of elements()
     /// Stiffness of the hourglass modes over that of pure bending of a box cell.
@@ -27,6 +27,16 @@ namespace tread
     double surface_damping = 0.5;
     /// Artificial bulk viscosity: linear (times c h rho) and quadratic (times rho h^2 in compression).
     double linear_bulk_viscosity = 0., quadratic_bulk_viscosity = 0.;
+
+    bool has_bulk_viscosity() const
+    {
+      return linear_bulk_viscosity > 0. || quadratic_bulk_viscosity > 0.;
+    }
+  };
+
+  /// All that the bodies have in common.
+  struct SolidParameters : ElementParameters
+  {
     /// Factor on the inertia of the cells (quasi-static scenes).
     double density_scale = 1.;
     /// Cells that would vibrate faster than this (rad/s) get as much mass as it takes that they do not; 0:
@@ -43,11 +53,6 @@ namespace tread
     Quantum force_quantum() const
     {
       return Quantum(reproducible ? 0x1p-26 : 0.);
-    }
-
-    bool has_bulk_viscosity() const
-    {
-      return linear_bulk_viscosity > 0. || quadratic_bulk_viscosity > 0.;
     }
   };
 

@@ -8,8 +8,8 @@
 
 namespace tread
 {
-  /// Section `Solid`: of the parameters of cells those that do not follow from other sections, and damping.
-  struct SolidSection : SolidParameters
+  /// Section `Solid`.
+  struct SolidSection : ElementParameters
   {
     double stiffness_damping = DynamicsParameters().damping_steps; ///< time steps
     double mass_damping      = DynamicsParameters().mass_damping;  ///< 1/s

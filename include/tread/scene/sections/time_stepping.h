@@ -3,14 +3,13 @@
 #define tread_scene_sections_time_stepping_h
 
 #include <tread/base/section.h>
-#include <tread/dynamics/dynamics_parameters.h>
 
 namespace tread
 {
   /// Section `Time stepping`.
   struct TimeSteppingSection
   {
-    double       courant_number = DynamicsParameters().courant_number;
+    double       courant_number = 0.95; ///< without levels, @see DynamicsParameters
     unsigned int levels         = 1;
     double       least_step     = 0.; ///< s, which the fastest cells are given mass for; 0: none
 
