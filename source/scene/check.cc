@@ -471,7 +471,7 @@ namespace tread
         require(use == SceneUse::roll || scene.motion.drive != Drive::torque,
                 "'Motion/Drive' cannot be torque where 'Wheelset' has a position and half-space theory "
                 "answers: it takes the creepage that is given");
-        return check_wheelset(scene, use);
+        return check_wheelset(scene);
       }
     require(scene.guidance.kind == Guidance::rigid,
             "'Guidance/Kind' " + name_of(scene.guidance.kind) +

@@ -457,6 +457,17 @@ namespace tread
   }
 
 
+  std::vector<std::string> left_out_by_half_space(const Scene &scene)
+  {
+    std::vector<std::string> list;
+    if (scene.shapes().defect)
+      list.push_back("the defect is left out: half-space theory rolls over a smooth rail");
+    if (!scene.shapes().is_round())
+      list.push_back("the wheel is taken as round: tread positions solves wheels that are not");
+    return list;
+  }
+
+
   double detail_within_cells(const Scene &scene)
   {
     if (scene.is_positioned())

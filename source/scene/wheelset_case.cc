@@ -191,7 +191,7 @@ namespace tread
   }
 
 
-  void check_wheelset(const Scene &scene, const SceneUse use)
+  void check_wheelset(const Scene &scene)
   {
     check_guidance(scene);
     scene.motion.check();
@@ -206,8 +206,6 @@ namespace tread
     require(scene.wheel.deviation.empty(),
             "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread positions solves wheels "
             "that are not round, and an upright wheel may have one");
-    require(!scene.shapes().defect || use == SceneUse::roll,
-            "'Defect/Shape' must be none: half-space theory rolls over smooth rails");
     require(!scene.shapes().defect || !scene.rail.is_sliced(),
             "'Defect/Shape' must be none over 'Rail/Shape' slices, which hold the surface as it is");
     require(scene.further_wheels.distances.empty(),

@@ -268,10 +268,9 @@ namespace tread
     summary.set("tangential_residual", half_space.convergence.tangential_residual);
     const MeasuredProfiles   profiles(scene);
     std::vector<std::string> warnings = scene.unused_parameters();
-    for (const std::vector<std::string> &more : {implausible_values(scene), profiles.warnings()})
+    for (const std::vector<std::string> &more :
+         {implausible_values(scene), profiles.warnings(), left_out_by_half_space(scene)})
       warnings.insert(warnings.end(), more.begin(), more.end());
-    if (!scene.shapes().is_round())
-      warnings.push_back("the wheel is taken as round: tread positions solves wheels that are not");
     profiles.summarise(summary);
     summary.set("wall_s", progress.seconds());
     summary.set("ranks", dealii::Utilities::MPI::n_mpi_processes(comm));
@@ -308,8 +307,6 @@ namespace tread
       progress.say(line);
     for (const std::string &warning : warnings)
       progress.say("WARNING: " + warning);
-    if (scene.shapes().defect)
-      progress.say("the defect is left out: half-space theory rolls over a smooth rail");
     progress.say(summary.table());
     if (!no_transient.empty())
       progress.say("no transient.csv, for a solver that knows one friction coefficient and like bodies: " +

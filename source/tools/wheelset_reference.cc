@@ -40,8 +40,8 @@ namespace tread
     for (const std::string &warning : placed.warnings())
       warnings.push_back(warning);
     const MeasuredProfiles profiles(scene);
-    for (const std::vector<std::string> &more :
-         {scene.unused_parameters(), implausible_values(scene), profiles.warnings()})
+    for (const std::vector<std::string> &more : {scene.unused_parameters(), implausible_values(scene),
+                                                 profiles.warnings(), left_out_by_half_space(scene)})
       warnings.insert(warnings.end(), more.begin(), more.end());
 
     Summary summary;

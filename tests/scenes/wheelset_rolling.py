@@ -174,6 +174,11 @@ with tempfile.TemporaryDirectory() as folder:
     check.below("a wave: least force over the static one", over_wave["in a position"]["least_normal_force_over_static"], 0.7)
     check.that("a wave: no half-space beside it", "half_space_patches" not in over_wave["in a position"] and not os.path.exists(os.path.join(path("in a position"), "reference_patch.csv")))
 
+    smooth = run(program, "smooth-rolling.prm", path("smooth"), {**WAVE, **STANCES["in a position"]}, command="reference")
+    check.that("a half-space beside a wave: says what it leaves out", any("the defect is left out" in w for w in smooth["warnings"]))
+    drawn = script("plot/plot-run.py", path("in a position"))
+    check.that("a wave in a position is drawn: " + drawn.stderr, drawn.returncode == 0 and os.path.getsize(os.path.join(path("in a position"), "pictures", "patches.png")))
+
     # What cannot be.
     def must_fail(what, settings, *words, command=()):
         more = [word for setting in settings for word in ("-s", setting)]
@@ -194,7 +199,6 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("a uniform rail", ["Ratcheting/Uniform rail=true", "Motion/Passages=2", "Rail/Yield stress (MPa)=500"], "Ratcheting/Uniform rail", "stands upright")
     must_fail("the largest stress where no dip is", [*DIP[:-1], "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0", "Defect/Position (mm)=-25", "Peak stress/Region=trailing edge"],
               "Peak stress", "does not meet the defect")
-    must_fail("a half-space over a defect", [*DIP, "Defect/Position (mm)=-18"], "Defect/Shape", "half-space", command=("reference",))
     must_fail("spin beside the position", ["Motion/Spin (1 per m)=0.1"], "Motion/Spin (1 per m)", "Wheelset")
     must_fail("a short margin", ["Rail/Margin (mm)=9"], "Rail/Margin (mm)", "at least")
     must_fail("further wheels", ["Further wheels/Distances (mm)=500"], "Further wheels/Distances (mm)")

@@ -25,7 +25,7 @@ namespace tread
   /// Where it begins and ends, and that cells can show it; not how far it reaches across.
   void check_defect(const Scene &scene);
   /// @pre scene.is_positioned()
-  void check_wheelset(const Scene &scene, const SceneUse use);
+  void check_wheelset(const Scene &scene);
   /// What finite elements need beyond the half-space's answer. @pre scene.is_positioned()
   void check_placed_mesh(const Scene &scene);
   /// Of a rail from a mesh file.

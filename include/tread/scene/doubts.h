@@ -18,6 +18,9 @@ namespace tread
   /// in a table over its lateral shift
   std::vector<std::string> implausible_values(const Scene &scene, const bool stands_in_track = false);
 
+  /// What of a scene half-space theory does not see, a line each.
+  std::vector<std::string> left_out_by_half_space(const Scene &scene);
+
   /// How far the gap between wheel and rail, across the patch, differs between nodes of finest cells from
   /// the cubics through the nearest four of them, root of the mean square (m): detail of profiles that the
   /// mesh does not see. 0 of a wheelset's positions, where cells follow the patch.

@@ -215,12 +215,13 @@ def along_patch(table: dict[str, np.ndarray], patch: dict) -> tuple[np.ndarray, 
     return c * y + s * z, c * z - s * y
 
 
-def patch_numbers(run: Run, nodes: dict[str, np.ndarray], half_space_only: bool) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
-    """Number of the patch of each node of patch.csv and of each element of the half-space, whose plane holds it."""
-    half_space = nodes if half_space_only else run.table("reference_patch.csv", PATCH_COLUMNS)
+def patch_numbers(run: Run, nodes: dict[str, np.ndarray], has_half_space: bool) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
+    """Number of the patch of each node of patch.csv and of each element of the half-space beside it, whose plane holds it; without one of
+    each node the patch whose plane is nearest."""
+    half_space = run.table("reference_patch.csv", PATCH_COLUMNS) if has_half_space else nodes
     planes = [abs(along_patch(half_space, patch)[1]) for patch in run.summary["patches"]]
     owner = np.argmin(planes, axis=0)
-    if half_space_only:
+    if not has_half_space:
         return owner, half_space, owner
     place = np.array([half_space["y_mm"], half_space["z_mm"]])
     nearest = [np.argmin(np.hypot(place[0] - y, place[1] - z)) for y, z in zip(nodes["y_mm"], nodes["z_mm"])]
@@ -229,9 +230,9 @@ def patch_numbers(run: Run, nodes: dict[str, np.ndarray], half_space_only: bool)
 
 def draw_patches(run: Run) -> Figure:
     """A row for each patch of a wheelset in a position: pressure, and shear stress where it adheres and where it slips."""
-    half_space_only = run.summary.get("method") == "half-space solver"
+    has_half_space = "half_space_patches" in run.summary  # beside finite elements, in steady rolling
     nodes, patches = run.table("patch.csv", PATCH_COLUMNS), run.summary["patches"]
-    numbers, half_space, owner = patch_numbers(run, nodes, half_space_only)
+    numbers, half_space, owner = patch_numbers(run, nodes, has_half_space)
     figure, axes = subplots(len(patches), 2, figsize=(12.5, 1.9 + 3.8 * len(patches)), squeeze=False)
     largest_pressure, largest_shear = nodes["pressure_MPa"].max(), np.hypot(nodes["shear_x_MPa"], nodes["shear_y_MPa"]).max()
     for k, (patch, row) in enumerate(zip(patches, axes)):
@@ -248,7 +249,7 @@ def draw_patches(run: Run) -> Figure:
         step = max(1, len(x) // 250)
         row[1].quiver(x[::step], s[::step], nodes["shear_x_MPa"][mine][::step], nodes["shear_y_MPa"][mine][::step], color="#222222",
                       pivot="middle", angles="xy", scale_units="xy", scale=largest_shear / max(1.0, 0.06 * np.ptp(x)), width=0.0025)
-        if not half_space_only:
+        if has_half_space:
             other = owner == k
             element = [1e3 * run.summary["half_space_patches"][k][f"element_{axis}_m"] for axis in "xy"]
             ex, es = half_space["x_mm"][other], along_patch(half_space, patch)[0][other]
@@ -268,13 +269,13 @@ def draw_patches(run: Run) -> Figure:
         wheel = "other wheel" if patch.get("wheel") == "other" else "own wheel"
         text = (f"{wheel}, patch {k + 1}, {abs(1e3 * patch['y_rail_m']):.1f} mm to the {'gauge' if patch['y_rail_m'] < 0 else 'field'} side of the rail's middle\n"
                 f"contact angle {np.degrees(patch['angle_rad']):.1f}°, normal force {1e-3 * patch['normal_force_N']:.2f} kN")
-        if not half_space_only:
+        if has_half_space:
             text += f" (half-space {1e-3 * run.summary['half_space_patches'][k]['normal_force_N']:.2f})"
         row[0].set_title(text)
         row[1].set_title(f"shear stress on the wheel, up to {np.hypot(nodes['shear_x_MPa'][mine], nodes['shear_y_MPa'][mine]).max():.0f} MPa\n"
                          f"adhesion {100 * patch['adhesion_share']:.0f} % (blue), slip (orange)")
         figure.colorbar(filled, ax=row[0], shrink=0.9).set_label("pressure [MPa]")
-    if not half_space_only:
+    if has_half_space:
         figure.legend(handles=[Line2D([], [], color=RED, lw=1.2, label="border of the half-space's patch")], loc="upper right")
     figure.suptitle(f"shift {1e3 * run.summary['lateral_shift_m']:g} mm, yaw {1e3 * run.summary['yaw_rad']:.3g} mrad, vertical force "
                     f"{1e-3 * run.summary['normal_force_N']:.2f} kN", x=0.01, ha="left", fontsize=10)
