@@ -167,8 +167,8 @@ with tempfile.TemporaryDirectory() as folder:
     over_wave = {stance: run(program, "smooth-rolling.prm", path(stance), {**WAVE, **own}) for stance, own in STANCES.items()}
     forces = [[(row["position_m"], 1e-3 * row["normal_force_N"]) for row in rows_of(path(stance), "history.csv")] for stance in STANCES]
     static = 7900 * 9.81e-3
-    pairs = [(a[1] - static, b[1] - static) for a, b in zip(*forces, strict=True)]
-    check.that("a wave: a hundred rows, at the same places", len(pairs) > 100 and all(abs(a[0] - b[0]) < 5e-5 for a, b in zip(*forces)))
+    pairs = [(a[1] - static, b[1] - static) for a, b in zip(*forces)]
+    check.that("a wave: a hundred rows, at the same places", len(forces[0]) == len(forces[1]) > 100 and all(abs(a[0] - b[0]) < 5e-5 for a, b in zip(*forces)))
     check.below("a wave in a position beside upright: RMS of the difference over that of the dynamic force",
                 math.sqrt(sum((a - b) ** 2 for a, b in pairs) / sum(a ** 2 for a, _ in pairs)), 0.02)
     check.below("a wave: least force over the static one", over_wave["in a position"]["least_normal_force_over_static"], 0.7)
