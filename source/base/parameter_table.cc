@@ -135,7 +135,10 @@ namespace tread
               std::all_of(need.all.begin(), need.all.end(), has_one)) ||
              std::any_of(need.others.begin(), need.others.end(), is_met);
     };
-    const auto unmet = std::find_if_not(parameter.needs.begin(), parameter.needs.end(), is_met);
-    return unmet == parameter.needs.end() ? nullptr : &*unmet;
+    const Need *unmet = nullptr;
+    for (const Need &need : parameter.needs)
+      if ((!unmet || need.path == unmet->path) && !is_met(need))
+        unmet = &need;
+    return unmet;
   }
 } // namespace tread

@@ -88,14 +88,7 @@ namespace tread
     {
       if (scene.shapes().rail_mesh)
         check_mesh_rail(scene);
-      // A mesh ends where its own surface does, which has no margin of its own.
-      const double margin = scene.shapes().rail_mesh ? 0. : scene.rail.margin;
-      const double from = scene.path_begin(scene.last_wheel()) - margin, to = scene.meshed_end() + margin;
-      require(scene.rail_begin() <= from + round_off && scene.rail_end() >= to - round_off,
-              "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(scene.rail_begin()) +
-                " to " + text_in_mm(scene.rail_end()) +
-                " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " + text_in_mm(from) +
-                " to " + text_in_mm(to) + " mm");
+      check_rail_ends(scene);
       require(
         std::abs(scene.shapes().first_contact.y) < 0.99 * scene.shapes().surfaces.half_width,
         "wheel and rail touch at y = " + text_in_mm(scene.shapes().first_contact.y) +
@@ -225,6 +218,19 @@ namespace tread
                 " mm at least in part");
     }
   } // namespace
+
+
+  void check_rail_ends(const Scene &scene)
+  {
+    // A mesh ends where its own surface does, which has no margin of its own.
+    const double margin = scene.shapes().rail_mesh ? 0. : scene.rail.margin;
+    const double from = scene.path_begin(scene.last_wheel()) - margin, to = scene.meshed_end() + margin;
+    require(scene.rail_begin() <= from + round_off && scene.rail_end() >= to - round_off,
+            "the rail, by 'Rail/Begin (mm)' and 'Length (mm)' from " + text_in_mm(scene.rail_begin()) +
+              " to " + text_in_mm(scene.rail_end()) +
+              " mm, must hold the path and 'Rail/Margin (mm)' at both ends, from " + text_in_mm(from) +
+              " to " + text_in_mm(to) + " mm");
+  }
 
 
   void check_defect(const Scene &scene)

@@ -254,6 +254,7 @@ namespace tread
     require(scene.guidance.yaw_inertia > 0. || !scene.wheelset.both_wheels,
             "'Guidance/Yaw inertia (kg m2)' must be above 0 with 'Wheelset/Both wheels', which roll with it");
     without(!scene.track.has_supports(), "'Track/Foundation' must be rigid, co-running or beam");
+    check_rail_ends(scene);
     check_track(scene);
     check_defect(scene);
     without(!scene.wheel.is_full(), "'Wheel/Shape' must be sector");

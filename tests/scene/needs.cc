@@ -107,7 +107,7 @@ namespace scene_needs
            {"Rail/Profile", {{"Rail/Shape", "block"}}, "'Rail/Shape' head or full section"},
            {"Rail/Spans beyond", one_layer, "'Rail/Ends' endless, or on a beam"},
            {"Rail/Spans beyond", beam, ""},
-           {"Track/Pad stiffness (MN per m)", {}, track},
+           {"Track/Pad stiffness (MN per m)", {}, "'Track/Foundation' one-layer, two-layer or beam"},
            {"Track/Pad stiffness (MN per m)",
             {{"Track/Foundation", "co-running"}},
             "'Track/Foundation' one-layer, two-layer or beam"},
@@ -137,10 +137,17 @@ namespace scene_needs
             {{"Rail/Plastic zones", "0:9:8:400:21"}, {"Rail/Hardening", "Armstrong-Frederick"}},
             ""},
            // The defect, whose place counts without it.
-           {"Defect/Length (mm)", {}, defect},
-           {"Defect/Length (mm)", {{"Peak stress/Region", "trailing edge"}}, ""},
+           {"Defect/Length (mm)", {}, ""}, // of a smooth twin
+           {"Defect/Position (mm)", {}, defect},
+           {"Defect/Position (mm)", {{"Peak stress/Region", "trailing edge"}}, ""},
+           {"Defect/Position (mm)", {{"Mesh/Fine to (mm)", "20"}}, ""},
+           {"Defect/Width (mm)", {{"Defect/Shape", "profile"}}, ""},
+           {"Defect/Width (mm)",
+            {{"Defect/Shape", "profile"}, {"Defect/Lateral law", "uniform"}},
+            "'Defect/Lateral law' parabola"},
+           {"Defect/Width (mm)", {{"Defect/Shape", "map"}, {"Defect/Lateral law", "uniform"}}, ""},
            {"Defect/Depth (mm)", {{"Peak stress/Region", "trailing edge"}}, defect},
-           {"Defect/Ramp (mm)", {}, defect},
+           {"Defect/Ramp (mm)", {}, "'Defect/Shape' profile, corrugation or map"}, // the narrower need
            {"Defect/Ramp (mm)", {{"Defect/Shape", "dip"}}, "'Defect/Shape' profile, corrugation or map"},
            {"Defect/Ramp (mm)", {{"Defect/Shape", "map"}}, ""},
            // Laws.
@@ -175,7 +182,7 @@ namespace scene_needs
            {"Further wheels/Traction coefficients",
             {{"Motion/Creepage", "0.001"}, {"Motion/Drive", "torque"}},
             ""},
-           {"Peak stress/To (mm)", {}, "'Peak stress/Region' a region"},
+           {"Peak stress/To (mm)", {}, "'Peak stress/Region' range"},
            {"Peak stress/To (mm)", {{"Peak stress/Region", "trailing edge"}}, "'Peak stress/Region' range"},
            {"Output/Volume interval (mm)", {{"Output/Write volume", "false"}}, "'Output/Write volume' true"}})
       {

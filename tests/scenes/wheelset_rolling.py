@@ -194,6 +194,7 @@ with tempfile.TemporaryDirectory() as folder:
     must_fail("a track", ["Track/Foundation=two-layer"], "Track/Foundation", "Wheelset")
     must_fail("a full wheel", ["Wheel/Shape=full"], "Wheel/Shape", "Wheelset")
     DIP = ["Defect/Shape=dip", "Defect/Length (mm)=12", "Defect/Width (mm)=6", "Defect/Depth (mm)=0.1", "Defect/Lateral position (mm)=-35.4"]
+    must_fail("a short rail", ["Rail/Begin (mm)=-25"], "Rail/Begin (mm)", "must hold the path")
     must_fail("a defect without inertia", [*DIP, "Defect/Position (mm)=-18"], "Scene/Density scale", "Defect/Shape")
     must_fail("a defect outside the rail", [*DIP, "Defect/Position (mm)=200"], "lies outside the rail", "Defect/Position (mm)")
     must_fail("a uniform rail", ["Ratcheting/Uniform rail=true", "Motion/Passages=2", "Rail/Yield stress (MPa)=500"], "Ratcheting/Uniform rail", "stands upright")

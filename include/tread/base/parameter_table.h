@@ -55,7 +55,7 @@ namespace tread
     std::string                         normal;        ///< value if nothing is said
     std::string                         meaning;
     std::shared_ptr<const AllowedTexts> allowed;
-    std::vector<Need>                   needs; ///< all of them; the first one that is not met is told
+    std::vector<Need>                   needs; ///< all of them; @see unmet_need()
 
     /// What it means and what it needs; of several needs of one parameter the last, which is the narrowest.
     std::string documentation() const;
@@ -87,8 +87,9 @@ namespace tread
     {
       return !same_value(value(parameter), parameter.normal);
     }
-    /// The first need of a parameter that is not met; null: it has an effect. @param is_true whether a fact
-    /// of this name is. @pre no section is open @throws std::logic_error for a need of what there is not
+    /// The first need of a parameter that is not met, of several of one path the last, which is the
+    /// narrowest; null: it has an effect. @param is_true whether a fact of this name is. @pre no section is
+    /// open @throws std::logic_error for a need of what there is not
     const Need *unmet_need(const Parameter                                &parameter,
                            const std::function<bool(const std::string &)> &is_true) const;
 

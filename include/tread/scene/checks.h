@@ -22,6 +22,8 @@ namespace tread
   void check_numerics(const Scene &scene);
   void check_friction_by_temperature(const Scene &scene);
   void check_track(const Scene &scene);
+  /// That the rail goes on beyond the path.
+  void check_rail_ends(const Scene &scene);
   /// Where it begins and ends, and that cells can show it; not how far it reaches across.
   void check_defect(const Scene &scene);
   /// @pre scene.is_positioned()

@@ -183,17 +183,23 @@ namespace tread
         any.push_back(entry.name);
     const Need is_there("Defect/Shape", any), a_dip("Defect/Shape", {"dip"}),
       of_file("Defect/Shape", {"profile", "map"});
-    // Without a defect they say where the region lies.
-    section.all_need({Need(is_there).or_else({"Peak stress/Region", {"trailing edge"}})});
-    section.add("Position (mm)", position,
-                "x of the leading edge of the defect. 'Motion/Start' and 'Rolled distance' say where the "
-                "wheel starts and ends.",
-                Number(-1e5, 1e5));
+    // Without a defect they say where the region of the largest stresses lies.
+    const Need region = Need(is_there).or_else({"Peak stress/Region", {"trailing edge"}}),
+               across = Need("Defect/Lateral law", {"parabola"}).or_else({"Defect/Shape", {"dip", "map"}});
+    section
+      .needs(Need(region)
+               .or_else({"Mesh/Fine from (mm)", {}, "other than 0"})
+               .or_else({"Mesh/Fine to (mm)", {}, "other than 0"}))
+      .add("Position (mm)", position,
+           "x of the leading edge of the defect. 'Motion/Start' and 'Rolled distance' say where the "
+           "wheel starts and ends.",
+           Number(-1e5, 1e5));
     section.add(
       "Length (mm)", length,
-      "Length of the defect along the rail. A profile or a map is stretched to it; 0: as in the file.",
+      "Length of the defect along the rail. A profile or a map is stretched to it; 0: as in the file. In a "
+      "scene without one that of the defect whose smooth twin it is, with the same mesh and start.",
       Number(0., 1e4));
-    section.add(
+    section.needs(region).needs(across).add(
       "Width (mm)", width,
       "Width of the defect across the rail. 0: a dip is as wide as it is long, a map as in its file.",
       Number(0., 200.));
@@ -202,9 +208,9 @@ namespace tread
                 "Depth of the deepest point; of corrugation, from crests to troughs. A profile or a map is "
                 "scaled to it; 0: as in the file.",
                 Number(0., 1e3 * deepest));
-    section.add("Lateral position (mm)", lateral_position,
-                "y of the middle of the defect, along the rail's top; the gauge side is y < 0.",
-                Number(-50., 50.));
+    section.needs(across).add("Lateral position (mm)", lateral_position,
+                              "y of the middle of the defect, along the rail's top; the gauge side is y < 0.",
+                              Number(-50., 50.));
     section.needs(a_dip).add(
       "Rounded leading edge (mm)", leading_rounding,
       "Length over which the kink at the beginning of a dip is rounded. 0: a sharp edge.", Number(0., 1000.));

@@ -26,11 +26,13 @@ namespace tread
                 "Edge of the cells under the contact path. Cost grows like its inverse cube or faster; the "
                 "pressure's error shrinks in proportion to it, or a little faster.",
                 Number(0.02, 20.));
-    section.add("Fine half width (mm)", fine_half_width,
-                "Half width of the zone of finest cells, from the middle of the patch; contact must stay "
-                "inside. 0: as wide as the patch under the static load needs, and 1.35 times as wide in a "
-                "scene that is not quasi-static, whose load may double.",
-                Number(0., 500.));
+    section.add(
+      "Fine half width (mm)", fine_half_width,
+      "Half width of the zone of finest cells, from the middle of the patch; contact must stay "
+      "inside. 0: as wide as the patch under the static load needs, and 1.35 times as wide where the "
+      "load may double: in a scene that is not quasi-static or, where 'Wheelset' has a position, over "
+      "a defect.",
+      Number(0., 500.));
     section.add("Fine layers", fine_layers,
                 "Number of layers of finest cells under the surface; even numbers fit the octree.",
                 WholeNumber(1, 64));
