@@ -13,11 +13,15 @@
 
 namespace tread
 {
+  bool is_about_defect(const Scene &scene)
+  {
+    return scene.shapes().defect || scene.defect.length > 0.;
+  }
+
+
   bool settles(const Scene &scene)
   {
-    // A smooth twin has the length of the defect, and the inertia of the run that it is for.
-    const bool has_defect = scene.shapes().defect || scene.defect.length > 0.;
-    return scene.general.quasi_static && !has_defect && scene.shapes().is_round() &&
+    return scene.general.quasi_static && !is_about_defect(scene) && scene.shapes().is_round() &&
            !scene.shapes().has_uneven_mesh() && scene.track.foundation == Foundation::rigid;
   }
 

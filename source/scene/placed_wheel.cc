@@ -353,9 +353,7 @@ namespace tread
       return std::abs(beside) <= 0.5 * cell && std::abs(below) <= on_surface * cell;
     };
     if (slices.pieces.empty())
-      {
-        return is_on(place_in_rail(p, main_patch()).beside, depth_under(p, main_patch()));
-      }
+      return is_on(place_in_rail(p, main_patch()).beside, depth_under(p, main_patch()));
     const TouchedPiece        *on    = nullptr;
     const TouchedPiece::Touch *touch = nullptr;
     for (const TouchedPiece &piece : slices.pieces)

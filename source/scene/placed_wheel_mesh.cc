@@ -4,6 +4,7 @@
 #include <tread/geometry/contact_points.h>
 #include <tread/mesh/profile_block.h>
 #include <tread/mesh/rail_body.h>
+#include <tread/scene/assumptions.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/placed_wheel.h>
 #include <tread/scene/scene.h>
@@ -113,10 +114,8 @@ namespace tread
                      const double             way,
                      const Wandering::OnBody &wanders = {})
     {
-      // Contact that a plane does not stand for may reach farther than in one. Without its defect, of which
-      // the length remains, a scene has the same cells.
-      const bool   may_have_defect = scene.shapes().defect || scene.defect.length > 0.;
-      const double wider = (may_have_defect ? room_for_dynamic_load : 1.) * (1.1 + 0.3 * patch.turn);
+      // Contact that a plane does not stand for may reach farther than in one.
+      const double wider = (is_about_defect(scene) ? room_for_dynamic_load : 1.) * (1.1 + 0.3 * patch.turn);
       const reference::PlanarResult &r = patch.solution;
       const double                   x = x_reference + 0.5 * (r.x_begin + r.x_end),
                    begin               = parameter_at(profile, patch, s, r.y_begin),

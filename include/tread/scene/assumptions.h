@@ -13,6 +13,10 @@ namespace tread
   /// the relative error that the inertia of rolling makes in a quasi-static scene.
   double inertia_error_estimate(const Scene &scene);
 
+  /// Whether there is a defect, or the scene is the smooth twin of one with it: a twin keeps its length, and
+  /// has the same cells and inertia.
+  bool is_about_defect(const Scene &scene);
+
   /// Whether the axle follows the load of its wheels without the inertia of their mass: steady rolling.
   bool settles(const Scene &scene);
 
