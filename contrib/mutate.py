@@ -86,6 +86,8 @@ def faults_of_lists():
             if (count := text.count(fault["old"])) != 1:
                 wrong.append(f"{fault['name']}: found {count} times in {fault['file']}")
             fault["begin"] = text.find(fault["old"])
+            if fault["old"].endswith(";") and re.sub(r"//.*", "", text[:max(0, fault["begin"])]).rstrip()[-1:] not in ("", *";{})"):
+                wrong.append(f"{fault['name']}: begins within a statement and ends with one")
             fault["number"] = zlib.crc32(fault["name"].encode()) >> 1  # whatever other faults there are
             faults.append(fault)
     names = collections.Counter(fault["name"] for fault in faults)
@@ -149,7 +151,7 @@ def build(folder, jobs):
     """Compile the copy. @raises Error naming the log"""
     log = os.path.join(folder, "build.log")
     with open(log, "w", encoding="utf-8") as stream:
-        for command in (["cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Release"],
+        for command in (["cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Release", "-DTREAD_UNITY=ON"],
                         ["cmake", "--build", "build", "-j", str(jobs), "--", "-k"]):
             if subprocess.run(command, cwd=folder, stdout=stream, stderr=stream).returncode:
                 raise Error(f"the copy with faults does not compile: {log}")
