@@ -100,16 +100,27 @@ def faults_of_lists():
     return faults
 
 
+CONDITION = re.compile(r"((?:else )?if \()([^;]*)(\)(?: *//.*)?)", re.DOTALL)
+DECLARATION = re.compile(r"((?:const(?:expr)?|double|auto|unsigned|bool)\b[^=;(]* = )([^;]*)(;)", re.DOTALL)
+OPERAND = re.compile(r"()(.*?\S)((?: &&| \*| \+|,) ?)", re.DOTALL)
+
+
+def with_choice(old, new, chosen):
+    """The text that is `new` where `chosen`, otherwise `old`: statements, an expression, or an expression in what both have around it."""
+    for form in (CONDITION, DECLARATION, OPERAND):
+        one, other = form.fullmatch(old), form.fullmatch(new)
+        if one and other and (one[1], one[3].split("//")[0].strip()) == (other[1], other[3].split("//")[0].strip()):
+            return f"{one[1].replace('constexpr ', 'const ')}({chosen} ? ({other[2]}) : ({one[2]})){one[3]}"
+    if old.endswith(";"):
+        return f"if ({chosen}) {{ {new} }} else {{ {old} }}"
+    return f"({chosen} ? ({new}) : ({old}))"
+
+
 def with_faults(text, faults):
     """The text of a file in which each of the faults waits for its number; `both`: the text that chooses, where it is another one."""
     for fault in sorted(faults, key=lambda fault: -fault["begin"]):
         old, new, chosen = fault["old"], fault["new"], f"tread::fault_acts<{fault['number']}>()"
-        if "both" in fault:
-            both = fault["both"].replace("CHOSEN", chosen)
-        elif old.endswith(";"):
-            both = f"if ({chosen}) {{ {new} }} else {{ {old} }}"
-        else:
-            both = f"({chosen} ? ({new}) : ({old}))"
+        both = fault["both"].replace("CHOSEN", chosen) if "both" in fault else with_choice(old, new, chosen)
         text = text[:fault["begin"]] + both + text[fault["begin"] + len(old):]
     return "#include <tread/base/chosen_fault.h>\n" + text
 
