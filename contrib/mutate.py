@@ -86,6 +86,10 @@ def faults_of_lists():
             if (count := text.count(fault["old"])) != 1:
                 wrong.append(f"{fault['name']}: found {count} times in {fault['file']}")
             fault["begin"] = text.find(fault["old"])
+            try:
+                with_choice(fault["old"], fault["new"], "")
+            except ValueError as error:
+                wrong.append(f"{fault['name']}: {error}")
             if fault["old"].endswith(";") and re.sub(r"//.*", "", text[:max(0, fault["begin"])]).rstrip()[-1:] not in ("", *";{})"):
                 wrong.append(f"{fault['name']}: begins within a statement and ends with one")
             fault["number"] = zlib.crc32(fault["name"].encode()) >> 1  # whatever other faults there are
@@ -105,15 +109,33 @@ DECLARATION = re.compile(r"((?:const(?:expr)?|double|auto|unsigned|bool)\b[^=;(]
 OPERAND = re.compile(r"()(.*?\S)((?: &&| \*| \+|,) ?)", re.DOTALL)
 
 
+DECLARED = re.compile(r"(const|constexpr|double|auto|unsigned|bool|std::[\w:]+<.*> \w+|[A-Z]\w* \w+) ?[\w{(=;]")
+NO_OPERAND = re.compile(r"(if|for|while|else|return|const|constexpr)\b|[?:=,|/]|.*(&&|\|\||[?:=,+*/({<-])\s*$", re.DOTALL)
+
+
+def is_expression(text):
+    bare = re.sub(r"\"(\\.|[^\"])*\"|'(\\.|[^'])*'|::", "", text)
+    return (not NO_OPERAND.match(text) and not (";" in bare and "{" not in bare) and bare.count("?") <= bare.count(":")
+            and all(bare.count(left) == bare.count(right) for left, right in ("()", "[]", "{}")))
+
+
 def with_choice(old, new, chosen):
-    """The text that is `new` where `chosen`, otherwise `old`: statements, an expression, or an expression in what both have around it."""
+    """The text that is `new` where `chosen`, otherwise `old`: statements, an expression, or an expression in what both have around it.
+    @raises ValueError where they are neither, as far as one can see without a compiler"""
     for form in (CONDITION, DECLARATION, OPERAND):
         one, other = form.fullmatch(old), form.fullmatch(new)
         if one and other and (one[1], one[3].split("//")[0].strip()) == (other[1], other[3].split("//")[0].strip()):
-            return f"{one[1].replace('constexpr ', 'const ')}({chosen} ? ({other[2]}) : ({one[2]})){one[3]}"
-    if old.endswith(";"):
-        return f"if ({chosen}) {{ {new} }} else {{ {old} }}"
-    return f"({chosen} ? ({new}) : ({old}))"
+            around, (new, old) = (one[1].replace("constexpr ", "const "), one[3]), (other[2], one[2])
+            break
+    else:
+        around = ("", "")
+        if old.endswith(";"):
+            if DECLARED.match(old):
+                raise ValueError("declares what is unknown behind a choice")
+            return f"if ({chosen}) {{ {new} }} else {{ {old} }}"
+    if not is_expression(old) or not is_expression(new):
+        raise ValueError("is neither an expression nor whole statements")
+    return f"{around[0]}({chosen} ? ({new}) : ({old})){around[1]}"
 
 
 def with_faults(text, faults):
