@@ -116,7 +116,7 @@ NO_OPERAND = re.compile(r"(if|for|while|else|return|const|constexpr)\b|[?:=,|/]|
 def is_expression(text):
     bare = re.sub(r"\"(\\.|[^\"])*\"|'(\\.|[^'])*'|::", "", text)
     return (not NO_OPERAND.match(text) and not (";" in bare and "{" not in bare) and bare.count("?") <= bare.count(":")
-            and all(bare.count(left) == bare.count(right) for left, right in ("()", "[]", "{}")))
+            and all(bare.count(pair[0]) == bare.count(pair[1]) for pair in ("()", "[]", "{}")))
 
 
 def with_choice(old, new, chosen):
