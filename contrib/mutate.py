@@ -90,6 +90,9 @@ def faults_of_lists():
                 with_choice(fault["old"], fault["new"], "")
             except ValueError as error:
                 wrong.append(f"{fault['name']}: {error}")
+            if not fault["old"].endswith(";") and is_torn(fault["old"], text[:max(0, fault["begin"])].rstrip()[-2:],
+                                                          text[fault["begin"] + len(fault["old"]):].lstrip()[:2]):
+                wrong.append(f"{fault['name']}: what stands beside it binds closer")
             if fault["old"].endswith(";") and re.sub(r"//.*", "", text[:max(0, fault["begin"])]).rstrip()[-1:] not in ("", *";{})"):
                 wrong.append(f"{fault['name']}: begins within a statement and ends with one")
             fault["number"] = zlib.crc32(fault["name"].encode()) >> 1  # whatever other faults there are
@@ -117,6 +120,19 @@ def is_expression(text):
     bare = re.sub(r"\"(\\.|[^\"])*\"|'(\\.|[^'])*'|::", "", text)
     return (not NO_OPERAND.match(text) and not (";" in bare and "{" not in bare) and bare.count("?") <= bare.count(":")
             and all(bare.count(pair[0]) == bare.count(pair[1]) for pair in ("()", "[]", "{}")))
+
+
+def is_torn(text, before, behind):
+    """Whether what stands beside an expression binds closer than what is in it, so that brackets around it change what it is."""
+    outside = re.sub(r"->|\"[^\"]*\"", "", text)
+    while (less := re.sub(r"\([^()]*\)|\[[^][]*\]|\{[^{}]*\}", "", outside)) != outside:
+        outside = less
+    compares, adds, divides = (re.search(each, outside) for each in (r"&&|\|\||[<>=!]=|\?| [<>] ", r" [+-] ", r" [*/%] "))
+    return bool((compares and (re.search(r"[-+*/<>!]$", before) or re.match(r"[-+*/<>]|[=!]=", behind)))
+                or ("||" in outside and "&&" in (before, behind))
+                or (adds and (re.search(r"[-*/]$", before) or re.match(r"[*/]", behind)))
+                or (divides and before.endswith("/"))
+                or ((compares or adds or divides) and re.match(r"\.|\[|->", behind)))
 
 
 def with_choice(old, new, chosen):
