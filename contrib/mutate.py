@@ -86,15 +86,7 @@ def faults_of_lists():
             if (count := text.count(fault["old"])) != 1:
                 wrong.append(f"{fault['name']}: found {count} times in {fault['file']}")
             fault["begin"] = text.find(fault["old"])
-            try:
-                with_choice(fault["old"], fault["new"], "")
-            except ValueError as error:
-                wrong.append(f"{fault['name']}: {error}")
-            if not fault["old"].endswith(";") and is_torn(fault["old"], text[:max(0, fault["begin"])].rstrip()[-2:],
-                                                          text[fault["begin"] + len(fault["old"]):].lstrip()[:2]):
-                wrong.append(f"{fault['name']}: what stands beside it binds closer")
-            if fault["old"].endswith(";") and re.sub(r"//.*", "", text[:max(0, fault["begin"])]).rstrip()[-1:] not in ("", *";{})"):
-                wrong.append(f"{fault['name']}: begins within a statement and ends with one")
+            wrong += [f"{fault['name']}: {why}" for why in why_not_to_choose(fault, text)]
             fault["number"] = zlib.crc32(fault["name"].encode()) >> 1  # whatever other faults there are
             faults.append(fault)
     names = collections.Counter(fault["name"] for fault in faults)
@@ -107,10 +99,10 @@ def faults_of_lists():
     return faults
 
 
+# What stands before and behind an expression that changes, in the text of a fault.
 CONDITION = re.compile(r"((?:else )?if \()([^;]*)(\)(?: *//.*)?)", re.DOTALL)
 DECLARATION = re.compile(r"((?:const(?:expr)?|double|auto|unsigned|bool)\b[^=;(]* = )([^;]*)(;)", re.DOTALL)
-OPERAND = re.compile(r"()(.*?\S)((?: &&| \*| \+|,) ?)", re.DOTALL)
-
+OPERAND = re.compile(r"()(.*?\S)( && ?)", re.DOTALL)
 
 DECLARED = re.compile(r"(const|constexpr|double|auto|unsigned|bool|std::[\w:]+<.*> \w+|[A-Z]\w* \w+) ?[\w{(=;]")
 NO_OPERAND = re.compile(r"(if|for|while|else|return|const|constexpr)\b|[?:=,|/]|.*(&&|\|\||[?:=,+*/({<-])\s*$", re.DOTALL)
@@ -133,6 +125,20 @@ def is_torn(text, before, behind):
                 or (adds and (re.search(r"[-*/]$", before) or re.match(r"[*/]", behind)))
                 or (divides and before.endswith("/"))
                 or ((compares or adds or divides) and re.match(r"\.|\[|->", behind)))
+
+
+def why_not_to_choose(fault, text):
+    """Why a fault cannot be chosen while the program runs, as far as one can see without a compiler; text: of its file."""
+    old, before, behind = fault["old"], text[:max(0, fault["begin"])], text[max(0, fault["begin"]) + len(fault["old"]):]
+    try:
+        with_choice(old, fault["new"], "")
+    except ValueError as error:
+        yield str(error)
+    if old.endswith(";"):
+        if re.sub(r"//.*", "", before).rstrip()[-1:] not in ("", *";{})"):
+            yield "begins within a statement and ends with one"
+    elif is_torn(old, before.rstrip()[-2:], behind.lstrip()[:2]):
+        yield "what stands beside it binds closer"
 
 
 def with_choice(old, new, chosen):
