@@ -66,7 +66,7 @@ def alone(scene: str, settings: dict, folder: str) -> dict:
 def step_of(one: dict, run: dict, ranks: int, latency: float, bandwidth: float, growth: float = 1.) -> dict:
     """Seconds of the parts of a step, by the run on one rank and the counts of that on so many. @param growth of the number of cells"""
     surface = growth ** (2. / 3.)
-    return {"cells": growth * (one["wall_s_internal_forces"] + one["wall_s_nodes"]) / one["steps"] / ranks * run["imbalance_of_cells"],
+    return {"cells": growth * (one["wall_s_internal_forces"] + one["wall_s_nodes"]) / one["steps"] / ranks * run["imbalance_of_cost"],
             "contact": one["wall_s_contact"] / one["steps"] / run["ranks_of_contact"],
             "messages": run["waits"] * latency + run["bytes"] * surface / bandwidth,
             "collectives": run["doublings"] * latency + run["collective_bytes"] / bandwidth}
@@ -92,7 +92,7 @@ def main() -> None:
             run = counted(scene, settings, ranks, f"{folder}-{ranks}") if ranks > 1 else one
             if ranks > 1:
                 summaries.append(run)
-                count_rows.append([name, number(run["cells"]), str(ranks), f"{run['imbalance_of_cells']:.2f}", str(run["ranks_of_contact"]), f"{run['messages']:.1f}",
+                count_rows.append([name, number(run["cells"]), str(ranks), f"{run['imbalance_of_cost']:.2f}", str(run["ranks_of_contact"]), f"{run['messages']:.1f}",
                                    f"{run['bytes'] / 1e3:.1f}", f"{run['waits']:.1f}", f"{run['collectives']:.1f}", f"{run['doublings']:.1f}", f"{run['collective_bytes'] / 1e3:.1f}"])
                 print(" | ".join(count_rows[-1]), flush=True)
             for label, growth in ((name, 1.),) + (((TEN_TIMES, 10.),) if name == list(SCENES)[-1] else ()):
@@ -104,7 +104,7 @@ def main() -> None:
                 rows.append([label, number(growth * run["cells"]), str(ranks), *(f"{1e6 * part:.0f}" for part in parts.values()), f"{1e6 * whole:.0f}", f"{pace[label] / whole / ranks:.2f}", *here])
     rows.sort(key=lambda row: row[0] == TEN_TIMES)
     note = "\n\n" + provenance("benchmarks/messages.py", summaries)
-    fill("performance.md", "messages", markdown(["scene", "cells", "ranks", "largest share of cells over the mean", "ranks that sweep", "messages a step", "kB", "waits",
+    fill("performance.md", "messages", markdown(["scene", "cells", "ranks", "largest cost of cells over the mean", "ranks that sweep", "messages a step", "kB", "waits",
                                                  "collective operations a step", "doublings in them", "kB given to them"], count_rows) + note)
     fill("performance.md", "scaling-model", markdown(["scene", "cells", "ranks", "cells, us", "contact", "messages", "collective operations", "a step, us", "efficiency",
                                                       "by this machine's latency, us", "measured, us"], rows) + note)

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -152,6 +153,25 @@ namespace tread
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       updates += std::ldexp(1., -static_cast<int>(solid.level_up_to(largest, c)));
     return mesh.n_global_cells / dealii::Utilities::MPI::sum(updates, mesh.comm);
+  }
+
+
+  double MovingBodies::imbalance_of_cost(const Mesh::CellCost &cost) const
+  {
+    std::vector<double> costs(max_level() + 1, 0.);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      costs[solid.cell_levels()[c]] += cost(mesh.cells[c].body, mesh.corners(c), 0);
+    double of_step = 0., waited_for = 0., mean = 0.;
+    for (unsigned int last = 0; last <= max_level(); ++last)
+      {
+        // In one of 2^(last + 1) steps it is the turn of levels 0 to `last` and no further.
+        const double share = std::ldexp(1., -static_cast<int>(std::min(last + 1, max_level())));
+        of_step += costs[last];
+        const auto over_ranks = dealii::Utilities::MPI::min_max_avg(of_step, mesh.comm);
+        waited_for += share * over_ranks.max;
+        mean += share * over_ranks.avg;
+      }
+    return waited_for / mean;
   }
 
 

@@ -345,6 +345,8 @@ namespace tread
                             "back at %g, so that the wheel stands %g mm off its place in the track",
                             1e3 * back, scene.wheel.tread_profile.c_str(), 1e3 * named_back,
                             1e3 * std::abs(back - named_back)));
+    if (stands_in_track && !scene.wheel.deviation.empty())
+      list.push_back("'Wheel/Deviation' is left out: the wheel is taken as round");
     if (stands_in_track || scene.is_positioned())
       if (const std::string elsewhere = flange_back_elsewhere(scene); !elsewhere.empty())
         list.push_back(elsewhere);
@@ -354,7 +356,7 @@ namespace tread
         format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
                "(above %g m/s): are its shifts in mm and its times in s?",
                scene.tables().wheelset_motion->largest_lateral_speed(), largest_lateral_speed));
-    if (!scene.shapes().is_round() && scene.shapes().largest_deviation < least_height)
+    if (!scene.shapes().is_round() && scene.stance().largest_deviation() < least_height)
       list.push_back(
         "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
         "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");
@@ -380,15 +382,23 @@ namespace tread
     constexpr unsigned int n_between = 8, n_across = 5; // places from node to node, and lines
     const double           a       = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     double                 largest = 0.;
-    std::vector<double>    lines;         // across
-    Scene::Range           reach{0., 0.}; // from the axle
-    for (const WheelStance::Footprint &patch : scene.stance().footprints())
-      {
-        for (unsigned int line = 0; line < n_across; ++line)
-          lines.push_back(patch.y_begin + (patch.y_end - patch.y_begin) * (line + 0.5) / n_across);
-        reach = {std::min(reach.begin, patch.x_begin), std::max(reach.end, patch.x_end)};
-      }
-    const auto look = [&](const double cell, const double from, const double to, const bool alike,
+    struct Patches
+    {
+      std::vector<double> lines;         // across
+      Scene::Range        reach{0., 0.}; // from the axle
+    };
+    const auto lines_of = [](const std::vector<WheelStance::Footprint> &patches) {
+      Patches all;
+      for (const WheelStance::Footprint &patch : patches)
+        {
+          for (unsigned int line = 0; line < n_across; ++line)
+            all.lines.push_back(patch.y_begin + (patch.y_end - patch.y_begin) * (line + 0.5) / n_across);
+          all.reach = {std::min(all.reach.begin, patch.x_begin), std::max(all.reach.end, patch.x_end)};
+        }
+      return all;
+    };
+    const auto look = [&](const std::vector<double> &lines, const double cell, const double from,
+                          const double to, const bool alike,
                           const std::function<double(double, double)> &height) {
       if (!(to > from))
         return;
@@ -422,19 +432,21 @@ namespace tread
     };
     if (is_file)
       {
+        const Patches       on_rail = lines_of(scene.stance().footprints());
         std::vector<double> begins(made->repeated_at);
         begins.push_back(made->begin);
         for (const double begin : begins)
           {
             const double cell = cell_along(scene, begin, begin + made->length);
-            look(cell, std::max(begin - 2. * cell, scene.path_begin(scene.last_wheel()) + reach.begin),
-                 std::min(begin + made->length + 2. * cell, scene.meshed_end() + reach.end),
+            look(on_rail.lines, cell,
+                 std::max(begin - 2. * cell, scene.path_begin(scene.last_wheel()) + on_rail.reach.begin),
+                 std::min(begin + made->length + 2. * cell, scene.meshed_end() + on_rail.reach.end),
                  std::isinf(made->width), [&](const double x, const double y) { return made->height(x, y); });
           }
       }
     if (!scene.shapes().is_round())
-      look(cell_along(scene, scene.path_begin(), scene.meshed_end()), -a, scene.motion.meshed_distance() + a,
-           false, [&](const double way, const double y) {
+      look(lines_of(scene.stance().treads()).lines, cell_along(scene, scene.path_begin(), scene.meshed_end()),
+           -a, scene.motion.meshed_distance() + a, false, [&](const double way, const double y) {
              return scene.shapes().surfaces.deviation(way / scene.wheel.radius, y);
            });
     return largest;

@@ -126,6 +126,7 @@ namespace tread
                 "'Rail/Shape' mesh is for an upright wheel: 'Wheelset/Lateral shift (mm)' and "
                 "'Motion/Angular velocity (rad per s)' must be left out");
         made_shapes.defect = made_defect;
+        shape_deviation(made_shapes, *this);
       }
     else
       {

@@ -115,7 +115,9 @@ namespace tread
                      const Wandering::OnBody &wanders = {})
     {
       // Contact that a plane does not stand for may reach farther than in one.
-      const double wider = (is_about_defect(scene) ? room_for_dynamic_load : 1.) * (1.1 + 0.3 * patch.turn);
+      const double wider =
+        (is_about_defect(scene) || !scene.shapes().is_round() ? room_for_dynamic_load : 1.) *
+        (1.1 + 0.3 * patch.turn);
       const reference::PlanarResult &r = patch.solution;
       const double                   x = x_reference + 0.5 * (r.x_begin + r.x_end),
                    begin               = parameter_at(profile, patch, s, r.y_begin),
@@ -461,10 +463,15 @@ namespace tread
         require_on_profile(section, zones, "Wheel/Tread profile", scene.guidance.kind == Guidance::file);
         const double margin = scene.wheel.sector_margin, x_start = scene.path_begin();
         const auto   place = [section, in_mesh = from_track(side.is_mirrored), surfaces = surfaces,
-                            position = side.contact.position, radius,
-                            x_start](const double arc, const double along, const double behind) {
-          const dealii::Point<2> p = section.point(along, behind);
-          const Vector3d         q = surfaces.place(position, p[0], p[1], arc / radius);
+                            position  = side.contact.position, radius, x_start,
+                            deviation = side.is_mirrored ? nullptr : scene.shapes().surfaces.deviation](
+                             const double arc, const double along, const double behind) {
+          const double     angle = arc / radius;
+          dealii::Point<2> p     = section.point(along, behind);
+          // What the tread has beyond round fades to the base of the block.
+          if (deviation)
+            p[1] -= (1. - behind / section.depth) * deviation(angle, section.point(along, 0.)[0]);
+          const Vector3d q = surfaces.place(position, p[0], p[1], angle);
           return in_mesh({q[0] + x_start, q[1], q[2]});
         };
         return make_profile_block(

@@ -41,32 +41,7 @@ namespace tread
           throw InputError("'Wheel/Tread profile': " +
                            refused_tread(scene.wheel.tread_profile, error.what()));
         }
-      if (scene.wheel.deviation.empty())
-        return;
-      require(!scene.wheel.deviation.ends_with(".slcw") ||
-                (!scene.wheel.profile_placement.is_mirrored && scene.wheel.profile_placement.shift == 0.),
-              "'Wheel/Deviation' " + scene.wheel.deviation +
-                " has sections in the axes of the wheel: 'Tread profile mirrored' and 'Tread profile shift "
-                "(mm)', which "
-                "move the profile alone, must be false and 0");
-      const auto round = [&] {
-        return wheel_curve(scene.parameters().located(scene.wheel.tread_profile),
-                           scene.wheel.profile_placement);
-      };
-      try
-        {
-          const auto more      = wheel_deviation(scene.parameters().located(scene.wheel.deviation), round,
-                                                 scene.wheel.radius, scene.wheel.deviation_smoothing);
-          made.wheel_deviation = more->in_words();
-          surfaces.deviation   = [more, pitch = scene.wheel.deviation_pitch,
-                                y_circle = scene.wheel.lateral_position](const double angle, const double y) {
-            return more->at(angle - pitch, y - y_circle).dz;
-          };
-        }
-      catch (const std::runtime_error &error)
-        {
-          throw InputError(std::string("'Wheel/Deviation': ") + error.what());
-        }
+      shape_deviation(made, scene);
     }
 
     void shape_rail(SceneShapes &made, const Scene &scene)
@@ -205,6 +180,38 @@ namespace tread
       return largest;
     }
   } // namespace
+
+
+  void shape_deviation(SceneShapes &made, const Scene &scene)
+  {
+    if (scene.wheel.deviation.empty())
+      return;
+    require(!scene.wheel.deviation.ends_with(".slcw") ||
+              (!scene.wheel.profile_placement.is_mirrored && scene.wheel.profile_placement.shift == 0.),
+            "'Wheel/Deviation' " + scene.wheel.deviation +
+              " has sections in the axes of the wheel: 'Tread profile mirrored' and 'Tread profile shift "
+              "(mm)', which "
+              "move the profile alone, must be false and 0");
+    const auto round = [&] {
+      return wheel_curve(scene.parameters().located(scene.wheel.tread_profile),
+                         scene.wheel.profile_placement);
+    };
+    try
+      {
+        const auto more         = wheel_deviation(scene.parameters().located(scene.wheel.deviation), round,
+                                                  scene.wheel.radius, scene.wheel.deviation_smoothing);
+        made.wheel_deviation    = more->in_words();
+        made.surfaces.deviation = [more, pitch = scene.wheel.deviation_pitch,
+                                   y_circle = scene.wheel.lateral_position](const double angle,
+                                                                            const double y) {
+          return more->at(angle - pitch, y - y_circle).dz;
+        };
+      }
+    catch (const std::runtime_error &error)
+      {
+        throw InputError(std::string("'Wheel/Deviation': ") + error.what());
+      }
+  }
 
 
   SceneShapes make_shapes(const Scene &scene, const std::shared_ptr<const Defect> &defect)

@@ -114,6 +114,12 @@ namespace tread
   }
 
 
+  double UprightWheel::largest_deviation() const
+  {
+    return scene.shapes().largest_deviation;
+  }
+
+
   double UprightWheel::reach_beside(const double height) const
   {
     constexpr double       step     = 0.1e-3; // m

@@ -203,9 +203,6 @@ namespace tread
       scene.wheel.lateral_position == 0.,
       "'Wheel/Lateral position (mm)' is for an upright wheel; in a track 'Wheelset/Lateral shift (mm)' takes "
       "its place");
-    require(scene.wheel.deviation.empty(),
-            "'Wheel/Deviation' must be empty where 'Wheelset' has a position: tread positions solves wheels "
-            "that are not round, and an upright wheel may have one");
     require(!scene.shapes().defect || !scene.rail.is_sliced(),
             "'Defect/Shape' must be none over 'Rail/Shape' slices, which hold the surface as it is");
     require(scene.further_wheels.distances.empty(),

@@ -7,6 +7,7 @@
 #include <tread/scene/assumptions.h>
 #include <tread/scene/fine_cells.h>
 #include <tread/scene/measured_profiles.h>
+#include <tread/scene/parts.h>
 #include <tread/scene/wheelset_summary.h>
 #include <tread/simulation/comparison.h>
 #include <tread/simulation/doubts.h>
@@ -74,6 +75,9 @@ namespace tread
          {"element_updates_per_s", "The same over the wall time of internal forces"},
          {"cells_and_nodes_bytes", "Memory of mesh, cells and nodes on all ranks"},
          {"imbalance_of_cells", "Largest number of cells of a rank over the mean"},
+         {"imbalance_of_cost",
+          "What the cells of the slowest rank cost in a step over the mean of the ranks, by their kinds and "
+          "levels of time steps: what the others wait for"},
          {"ranks_of_contact",
           "So many of the ranks share the sweeps over the patch, as many as have enough to do"}});
   } // namespace
@@ -135,6 +139,7 @@ namespace tread
     summary.set("ranks", n_ranks);
     summary.set("imbalance_of_cells",
                 n_ranks * double(max(model.mesh.cells.size(), comm)) / model.mesh.n_global_cells);
+    summary.set("imbalance_of_cost", model.dynamics.imbalance_of_cost(cell_cost(scene)));
     summary.set("ranks_of_contact", max(model.contact.n_sweeping_ranks(), comm));
     summary.set("version", version());
     summary.set("files", as_json(scene.parameters().files_read()));

@@ -146,6 +146,8 @@ namespace tread
               "tread wear needs a rail that is the same everywhere: 'Rail/Shape' cannot be slices");
       require(!scene.shapes().defect,
               "tread wear needs a rail that is the same everywhere: 'Defect/Shape' must be none");
+      require(scene.wheel.deviation.empty(),
+              "tread wear needs a wheel that is round: 'Wheel/Deviation' must be empty");
       require(wear_law(scene) != nullptr, "tread wear needs a law: 'Damage/Wear law' must not be none");
       require(scene.guidance.kind != Guidance::file && scene.contact.friction_places.empty() &&
                 !scene.contact.varies_across(),

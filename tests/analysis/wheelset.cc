@@ -19,10 +19,11 @@ namespace analysis_wheelset
 {
   constexpr double radius = 0.46;
 
-  ProfileCurve straight_cone(const double slope)
+  /// @param begin, end of the tread, mm
+  ProfileCurve straight_cone(const double slope, const int begin = -60, const int end = 60)
   {
     std::vector<dealii::Point<2>> points;
-    for (int i = -60; i <= 60; ++i)
+    for (int i = begin; i <= end; ++i)
       points.emplace_back(1e-3 * i, slope * 1e-3 * i);
     return ProfileCurve(points);
   }
@@ -130,6 +131,27 @@ namespace analysis_wheelset
           check.relative("cone: equivalent conicity at 3 mm", harmonic_conicity(shifts, differences, 3e-3),
                          beside.radius_difference() / (2. * shift), 1e-3);
         }
+  }
+
+  /// Cones so narrow that they leave their rails on the way to both sides: conicities of smaller amplitudes
+  /// are those of wide ones, of larger ones there are none.
+  void check_conicity_beyond_reach(tests::Check &check)
+  {
+    constexpr double largest = 8e-3, smaller = 3e-3;
+    const auto       on_rail = [](const ProfileCurve &cone) {
+      return WheelOnRail(cone, round_rail(300e-3), radius, {1.46, 3e-3, 1.36, -70e-3});
+    };
+    const WheelOnRail       whole  = on_rail(straight_cone(1. / 20.));
+    const int               middle = std::lround(1e3 * touching_wheelset(whole, {}).own.wheel_y);
+    const WheelOnRail       cut    = on_rail(straight_cone(1. / 20., middle - 5, middle + 5));
+    const RadiusDifferences narrow({cut, cut}, {}, largest), wide({whole, whole}, {}, largest);
+    check.relative("narrow cone: harmonic conicity at 3 mm", narrow.harmonic(smaller), wide.harmonic(smaller),
+                   1e-6);
+    check.relative("narrow cone: equivalent conicity at 3 mm", narrow.motion().conicity(smaller),
+                   wide.motion().conicity(smaller), 1e-6);
+    check.that("narrow cone: none where it has left the rail",
+               std::isnan(narrow.harmonic(largest)) && std::isnan(narrow.motion().conicity(largest)) &&
+                 !std::isnan(wide.harmonic(largest)));
   }
 
   /// Radius differences and conicities that EN 15302:2008+A1:2010 tabulates for reference combination E.1, in
@@ -649,6 +671,7 @@ TREAD_TEST(analysis_wheelset)(tests::Check &check, const tests::Arguments &)
 {
   check_curves(check);
   check_conicity(check);
+  check_conicity_beyond_reach(check);
   check_reference_combinations(check);
   check_lateral_motion(check);
   check_unlike_sides(check);

@@ -29,7 +29,8 @@ namespace dynamics_ranks
     std::vector<double>                                       tip; ///< kinetic + strain energy (J) on the way
     WheelHub::Motion                                          hub;
     unsigned int                                              n_cells = 0, n_hanging = 0;
-    double largest_share = 0.; ///< of what the cells cost, over the mean of the ranks
+    double largest_share = 0.;                     ///< of what the cells cost, over the mean of the ranks
+    double imbalance = 0., counted_imbalance = 0.; ///< imbalance_of_cost(), and step by step
   };
 
   struct Case
@@ -40,6 +41,26 @@ namespace dynamics_ranks
     bool         reproducible;
     unsigned int max_level;
   };
+
+  /// What the dearest rank's cells cost over the mean of the ranks, each step with the cells of its levels.
+  double step_by_step(const Mesh           &mesh,
+                      const Solid          &solid,
+                      const Mesh::CellCost &cost,
+                      const unsigned int    n_steps)
+  {
+    double slowest = 0., mean = 0.;
+    for (unsigned int step = 0; step < n_steps; ++step)
+      {
+        double of_rank = 0.;
+        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+          if (step % (1u << solid.cell_levels()[c]) == 0)
+            of_rank += cost(mesh.cells[c].body, mesh.corners(c), 0);
+        const auto of_ranks = dealii::Utilities::MPI::min_max_avg(of_rank, mesh.comm);
+        slowest += of_ranks.max;
+        mean += of_ranks.avg;
+      }
+    return slowest / mean;
+  }
 
   History run(const MPI_Comm comm, const Case &c, const unsigned int n_steps)
   {
@@ -123,7 +144,9 @@ namespace dynamics_ranks
     history.n_cells   = mesh.n_global_cells;
     history.n_hanging = mesh.n_global_hanging_nodes;
 
-    history.largest_share = shares.max / shares.avg;
+    history.largest_share     = shares.max / shares.avg;
+    history.imbalance         = dynamics.imbalance_of_cost(cost);
+    history.counted_imbalance = step_by_step(mesh, solid, cost, 8);
     std::printf("shares of the ranks: %g to %g\n", shares.min, shares.max);
     return history;
   }
@@ -222,6 +245,8 @@ TREAD_TEST(dynamics_ranks)(tests::Check &check, const tests::Arguments &)
                   name.c_str(), alone.n_cells, alone.n_hanging, 1e6 * scale[0], scale[1]);
       // Eight siblings stay together.
       check.below(name + "largest share of the cells' cost over the mean", together.largest_share, 1.15);
+      check.relative(name + "imbalance of cost", together.imbalance, together.counted_imbalance, 1e-12);
+      check.relative(name + "imbalance of cost of one rank", alone.imbalance, 1., 1e-12);
       check.that(name + "has hanging nodes", alone.n_hanging > 0);
       check.absolute(name + "cells", together.n_cells, alone.n_cells, 0.);
       check.absolute(name + "hanging nodes", together.n_hanging, alone.n_hanging, 0.);

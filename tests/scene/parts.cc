@@ -1220,6 +1220,86 @@ namespace scene_parts
   }
 
 
+  /// A wheel that is not round in a position: in the mesh, in the depth below its tread, and where it comes
+  /// to the rail.
+  void check_deviation_of_wheelset(tests::Check &check)
+  {
+    constexpr double amplitude = 0.05e-3, order = 40., pitch = 0.3; // m, -, rad
+    Settings         settings{
+      "Rail/Inclination=1:40",    "Wheel/Tread profile=S1002",      "Wheelset/Lateral shift (mm)=6",
+      "Wheelset/Yaw (mrad)=14.4", "Wheelset/Roll (mrad)=-0.6272",   "Contact/Friction coefficient=0",
+      "Motion/Creepage=0",        "Motion/Rolled distance (mm)=40", "Mesh/Finest cell (mm)=0.7",
+      "Scene/Quasi-static=false"};
+    settings.insert(settings.end(), vehicle.begin(), vehicle.end());
+    const auto round    = scene_of(settings),
+               wavy     = scene_of(settings, {"Wheel/Deviation=waves: 40=0.05@0",
+                                              "Wheel/Deviation pitch (deg)=" +
+                                                std::to_string(pitch * 180. / dealii::numbers::PI)});
+    const Body   before = round->stance().make_bodies({})[1], behind = wavy->stance().make_bodies({})[1];
+    const double yaw  = round->placed_wheel().contact.position.yaw,
+                 roll = round->placed_wheel().contact.position.roll;
+    // A roll about x that takes the own side down, then a yaw about what was the vertical.
+    const Vector3 ahead{std::cos(yaw), std::cos(roll) * std::sin(yaw), -std::sin(roll) * std::sin(yaw), 0.},
+      down{0., -std::sin(roll), -std::cos(roll), 0.},
+      middle               = round->placed_wheel().middle() + Vector3{round->path_begin(), 0., 0., 0.};
+    const double thickness = round->wheel.sector_thickness;
+    const auto   path      = wavy->stance().paths().front();
+    const auto   strip     = wavy->stance().strip(wheel_body(0), path.begin, path.end);
+    double       off = 0., off_depth = 0., highest = 0., lowest = 0.;
+    for (double arc = -8e-3; arc < 40e-3; arc += 1.1e-3)
+      for (double along = -4e-3; along <= 4e-3; along += 0.7e-3)
+        for (const double inside : {0., 0.3 * thickness, thickness})
+          {
+            const Point<3> p    = before.to_space({arc, along, -inside}),
+                           q    = behind.to_space({arc, along, -inside});
+            const Vector3 arm   = Vector3{p[0], p[1], p[2], 0.} - middle;
+            const double  angle = std::atan2(dot(arm, ahead), dot(arm, down)),
+                         lift   = (1. - inside / thickness) * amplitude * std::cos(order * (angle - pitch));
+            const Vector3 outwards = std::sin(angle) * ahead + std::cos(angle) * down;
+            off     = std::max(off, q.distance(p + lift * Point<3>(outwards[0], outwards[1], outwards[2])));
+            highest = std::max(highest, lift);
+            lowest  = std::min(lowest, lift);
+            if (inside == 0.)
+              off_depth = std::max(off_depth, std::abs(strip.below(q)));
+          }
+    // The pitch is read with six decimals of a degree.
+    check.below("wheel in a position that is not round: nodes off their places, um", 1e6 * off, 1e-4);
+    check.absolute("wheel in a position that is not round: least more radius, um", 1e6 * lowest,
+                   -1e6 * amplitude, 2.);
+    check.absolute("wheel in a position that is not round: most more radius, um", 1e6 * highest,
+                   1e6 * amplitude, 2.);
+    // Known: the normal is that of the patch, and within 4 mm of it the tread turns.
+    check.below("wheel in a position that is not round: depth of its tread below itself, um", 1e6 * off_depth,
+                0.5e6 * amplitude);
+    check.absolute("wheel in a position that is not round: what comes to the rail, um",
+                   1e6 * wavy->stance().largest_deviation(), 1e6 * amplitude, 0.1);
+    check.absolute("a round wheel: nothing comes to the rail, um", round->stance().largest_deviation(), 0.,
+                   0.);
+
+    // A narrow flat comes to the rail where the patch is, and to no other place.
+    const auto tread   = round->stance().treads().front();
+    const auto flat_at = [&](const double way) {
+      return scene_of(settings, {"Wheel/Deviation=flat: length_mm=4 depth_mm=0.02",
+                                 "Wheel/Deviation pitch (deg)=" +
+                                   std::to_string(way / round->wheel.radius * 180. / dealii::numbers::PI)})
+        ->stance()
+        .largest_deviation();
+    };
+    // Known: the patch is behind the middle of the wheelset, and the yaw has turned the wheel back, too.
+    const auto footprint = round->stance().footprints().front();
+    check.absolute(
+      "tread: middle of the patch ahead of the wheel's bottom, mm", 5e2 * (tread.x_begin + tread.x_end),
+      5e2 * (footprint.x_begin + footprint.x_end) +
+        1e3 * std::sin(yaw) *
+          (round->placed_wheel().surfaces.wheel_origin_y() + 0.5 * (tread.y_begin + tread.y_end)),
+      0.2);
+    check.below("a flat before the patch comes, um", 1e6 * flat_at(tread.x_begin - 2.6e-3), 1e-9);
+    check.absolute("a flat under the patch, um", 1e6 * flat_at(tread.x_begin + 2e-3), 20., 2.);
+    check.absolute("a flat at the end, um", 1e6 * flat_at(tread.x_end + 38e-3), 20., 2.);
+    check.below("a flat after the end, um", 1e6 * flat_at(tread.x_end + 42.6e-3), 1e-9);
+  }
+
+
   /// A defect under a wheelset in a position: in the mesh and in the depth below it, and what the wheel rolls
   /// over.
   void check_defect_of_wheelset(tests::Check &check)
@@ -1463,6 +1543,7 @@ TREAD_TEST(scene_parts)(tests::Check &check, const tests::Arguments &)
   check_compared_traction(check);
   check_wheelset(check);
   check_defect_of_wheelset(check);
+  check_deviation_of_wheelset(check);
   check_beyond_profile(check);
   check_touched_piece(check);
   check_figures_of_patches(check);

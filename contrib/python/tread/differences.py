@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 COLUMNS = ("name", "a", "b", "difference", "relative_difference")
 # A checksum is a number only in its notation: how far two of them lie apart says nothing.
 CHECKSUM = ("crc32", "checksum", "sha256", "md5")
-OF_THE_MACHINE = ("wall_s", "element_updates_per_s", "cells_and_nodes_bytes", "imbalance_of_cells", "ranks_of_contact", "ranks", "reference")
+OF_THE_MACHINE = ("wall_s", "element_updates_per_s", "cells_and_nodes_bytes", "imbalance_of_cells", "imbalance_of_cost", "ranks_of_contact", "ranks", "reference")
 
 
 def figures_of(value: object, name: str = "") -> dict[str, float]:

@@ -46,6 +46,7 @@ namespace tread
     using MovingBodies::fix_nodes;
     using MovingBodies::guide_nodes;
     using MovingBodies::ideal_gain_of_levels;
+    using MovingBodies::imbalance_of_cost;
     using MovingBodies::inverse_masses;
     using MovingBodies::MassOfBody;
     using MovingBodies::masses_of_bodies;

@@ -76,6 +76,11 @@ namespace tread
     {
       return gain_of_levels;
     }
+    /// What ranks wait for one another: the largest cost of a rank's cells in a step over the mean of the
+    /// ranks, both summed over 2^max_level steps, in each of which the ranks wait for the one whose cells of
+    /// the levels in turn are dearest. 1: all are ready at once. @param cost of a cell in one step (of level
+    /// 0), in any unit. Collective.
+    double imbalance_of_cost(const Mesh::CellCost &cost) const;
     /// Steps with levels that update as many cells as this number of steps would without: what is done for
     /// all cells now and then takes the same share of the time.
     std::uint64_t steps_worth(const unsigned int steps_of_all_cells) const

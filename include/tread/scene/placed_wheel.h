@@ -81,6 +81,8 @@ namespace tread
     double factor_across(const Vector3 &place) const override;
     std::vector<std::pair<double, double>> loaded_lines() const override;
     std::vector<Footprint>                 footprints() const override;
+    std::vector<Footprint>                 treads() const override; ///< of all touches on slices
+    double                                 largest_deviation() const override;
     double                                 reach_beside(const double) const override
     {
       return std::numeric_limits<double>::infinity(); // the surfaces lie close at other angles, too
@@ -140,7 +142,8 @@ namespace tread
 
     /// Below the rail without its defect, as zones that may yield are.
     Place place_in_rail(const dealii::Point<3> &p, const WheelPatch &patch) const;
-    /// @param start_x of the wheel in the reference configuration
+    /// Below the wheel as it is without what it is not round by. @param start_x of the wheel in the reference
+    /// configuration
     Place place_in_wheel(const dealii::Point<3> &p, const WheelPatch &patch, const double start_x) const;
     std::vector<Place> places_under(const dealii::Point<3> &p, const unsigned int body) const override;
     /// Of the patch that is nearest.
@@ -158,6 +161,12 @@ namespace tread
     const WheelOnRail surfaces;
 
   private:
+    /// What the tread has beyond round over a place in the wheel, along the normal of a patch, m. @param
+    /// place, start_x of place_in_wheel()
+    double beyond_round(const dealii::Point<3> &p,
+                        const Place            &place,
+                        const WheelPatch       &patch,
+                        const double            start_x) const;
     /// Depth below the running surface with its defect, along the normal of a patch, m.
     double depth_under(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// Of slices, where a place is in the piece whose path is nearest.

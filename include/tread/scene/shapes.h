@@ -23,7 +23,8 @@ namespace tread
   };
 
   /// The surfaces of an upright wheel and its rail, and how they touch: what follows from the positions,
-  /// files and shapes that parameters name. Of a wheelset in a position there is only the defect. SI units.
+  /// files and shapes that parameters name. Of a wheelset in a position there are only the defect and the
+  /// deviation, over y of the wheel's profile. SI units.
   struct SceneShapes
   {
     RunningSurfaces surfaces;
@@ -70,6 +71,8 @@ namespace tread
 
   /// Surfaces and first contact of a scene; its patch is left. @param defect null: none. @throws InputError
   SceneShapes make_shapes(const Scene &scene, const std::shared_ptr<const Defect> &defect);
+  /// The part of make_shapes() for what the wheel is not round by.
+  void shape_deviation(SceneShapes &made, const Scene &scene);
   /// The part of make_shapes() for a rail from a mesh file.
   void shape_mesh_rail(SceneShapes &made, const Scene &scene);
   /// Add the patch under the static load, and the largest deviation from round on the way.

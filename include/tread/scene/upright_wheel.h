@@ -34,8 +34,13 @@ namespace tread
     Strip              strip(const unsigned int body, const double begin, const double end) const override;
     bool               is_on_path(const dealii::Point<3> &p, const double cell) const override;
     double             factor_across(const Vector3 &place) const override;
-    std::vector<std::pair<double, double>>                   loaded_lines() const override;
-    std::vector<Footprint>                                   footprints() const override;
+    std::vector<std::pair<double, double>> loaded_lines() const override;
+    std::vector<Footprint>                 footprints() const override;
+    std::vector<Footprint>                 treads() const override
+    {
+      return footprints();
+    }
+    double                                                   largest_deviation() const override;
     double                                                   reach_beside(const double height) const override;
     std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const override;
     ContactNodeState in_contact_axes(const ContactNodeState &state, const double) const override

@@ -95,7 +95,8 @@ namespace tread
       "What the wheel has beyond round: a scan (.csv with angle_deg or angle_rad, y_mm, dz_mm, or a column "
       "for "
       "each place y; .slcw of CONTACT), 'flat: length_mm=L depth_mm=D across_radius_mm=R angle_deg=A', or "
-      "'waves: ORDER=AMPLITUDE_MM@CREST_DEG ...'. Empty: the wheel is round.",
+      "'waves: ORDER=AMPLITUDE_MM@CREST_DEG ...'. Of 'Wheelset/Both wheels' the own one has it. Empty: the "
+      "wheel is round.",
       AnyText());
     section.needs(Need::of_fact("Wheel/Deviation", "a file", "scan"))
       .add("Deviation smoothing (mm)", deviation_smoothing,

@@ -12,7 +12,7 @@ KNOWN: list[tuple[str, str, str]] = [
     ("summary.json", "normal_iterations|tangential_iterations|solutions", COUNTS),
     ("summary.json", "normal_residual|tangential_residual", RESIDUAL),
     ("summary.json", "wall_s.*", TIMES),
-    ("summary.json", "imbalance_of_cells|ranks_of_contact", "how ranks share the work: compared by tests/scenes/ranks.py"),
+    ("summary.json", "imbalance_of_cells|imbalance_of_cost|ranks_of_contact", "how ranks share the work: compared by tests/scenes/ranks.py"),
     ("summary.json", "cells_and_nodes_bytes|unknowns|plastic_cells", "how a mesh is made up: within a factor of two by its number of cells"),
     ("summary.json", "peak_surface_von_mises_from_tractions_.*", PLACES),
     ("summary.json", "wheel_2_free_rolling_creepage", "both wheels are of one steel and one shape: it is that of the first wheel"),
