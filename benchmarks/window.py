@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a window of fine cells that moves with the wheel costs, and what it changes in the answer.
 
-Runs the metre of smooth rolling and, with --long, three metres; 120 mm of it with windows of several sizes beside all cells fine; and
+Runs the metre of smooth rolling and, with --long, three metres; 120 mm of it with windows of several sizes beside all cells fine; the root of a flange in a position; and
 the squat on 15 spans with and without a window, with mass for longer steps, and on fewer with endless ends. Each so many times in turn, of which the fastest counts. Fills the tables of
 doc/performance.md. Runs that have complete results are not repeated; remove RESULTS to measure anew.
 """
@@ -27,6 +27,8 @@ TRACK = {"15 spans, all along": {"Mesh/Window": "false"},
          **{f"the same, {step} us at least": {"Mesh/Window length (mm)": 75, "Time stepping/Least step (us)": step} for step in (0.28, 0.35)},
          **{f"{spans} spans, endless, windows of 75 mm": {"Mesh/Window length (mm)": 75, "Rail/Ends": "endless", "Rail/Begin (mm)": begin, "Rail/Length (mm)": 600 * spans + 300}
             for spans, begin in ((7, -2625), (5, -2025))}}
+CURVE = {"all fine, 100 mm": {"Mesh/Window": "false", "Motion/Rolled distance (mm)": 100},
+         **{f"windows, {way} mm": {"Mesh/Window": "true", "Motion/Rolled distance (mm)": way} for way in (100, 500)}}
 AT_REST = 3e-3  # m: the first rows begin at rest
 
 
@@ -49,7 +51,7 @@ def difference(folder, beside, column):
 def main():
     parser = command_parser(__doc__)
     parser.add_argument("results", metavar="RESULTS", nargs="?", default=os.path.join(ROOT, "results/window"))
-    parser.add_argument("--only", choices=("metres", "short", "track"), help="one of the tables")
+    parser.add_argument("--only", choices=("metres", "short", "curve", "track"), help="one of the tables")
     parser.add_argument("--long", action="store_true", help="three metres too")
     parser.add_argument("--turns", type=int, default=1, metavar="N", help="how often each run is made; default 1")
     arguments = parser.parse_args()
@@ -68,6 +70,8 @@ def main():
         fill_metres(measured, note, arguments.long)
     if arguments.only in (None, "short"):
         fill_short(measured, note, folder_of)
+    if arguments.only in (None, "curve"):
+        fill_curve(measured, note, folder_of)
     if arguments.only in (None, "track"):
         fill_track(measured, note, folder_of)
 
@@ -88,6 +92,17 @@ def fill_short(measured, note, folder_of):
         ["window, margin, mm", "cells", "seconds", "normal force, largest difference, %", "tangential force, %"],
         [[name, number(of["cells"]), number(of["seconds"]), *(number(100 * value) if name != "all fine" else "-" for value in off[name])]
          for name, of in short.items()]) + note(short))
+
+
+def fill_curve(measured, note, folder_of):
+    first, *others = CURVE
+    curve = measured({name: ("curves/flange-root.prm", {**settings, "Output/Write volume": "false"}) for name, settings in CURVE.items()})
+    off = {name: [difference(folder_of(first, 0), folder_of(name, 0), column)["largest"] for column in ("normal_force_N", "longitudinal_force_N")] for name in others}
+    fill("performance.md", "window-curve", markdown(
+        ["", "windows", "cells", "seconds", "window loss, % of what is dissipated", "energy residual, % of the same", "normal force, largest difference on 100 mm, %", "longitudinal force, %"],
+        [[name, number(of.get("windows", 1)), number(of["cells"]), number(of["seconds"]), number(100 * of.get("window_loss_J", 0.) / of["dissipated_work_J"]),
+          number(100 * of["energy_residual_of_dissipated"]), *(number(100 * value) if name in off else "-" for value in off.get(name, (0., 0.)))]
+         for name, of in curve.items()]) + note(curve))
 
 
 def fill_track(measured, note, folder_of):

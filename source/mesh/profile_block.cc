@@ -116,8 +116,11 @@ namespace tread
     };
     // Coarse facets would meet where the curved surfaces do not: a chord of the flange's root cuts into the
     // rail.
-    body.in_reach = [charted](const dealii::Point<3> &p) {
-      return std::any_of(charted.begin(), charted.end(), [&](const FineZone &zone) {
+    std::vector<FineZone> present;
+    for (const FineZone &zone : charted)
+      present.push_back(zone.in_window());
+    body.in_reach = [present](const dealii::Point<3> &p) {
+      return std::any_of(present.begin(), present.end(), [&](const FineZone &zone) {
         const double reach = cells_beside_zone * zone.finest_cell_size;
         return std::abs(p[1] - zone.y_middle) < zone.half_width + reach && p[0] > zone.x_begin - reach &&
                p[0] < zone.x_end + reach;

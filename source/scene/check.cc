@@ -146,24 +146,6 @@ namespace tread
                               text_in_mm(head) + " mm: lower 'Defect/Width (mm)' or 'Lateral position (mm)'");
     }
 
-    void check_window(const Scene &scene)
-    {
-      if (!has_window(scene))
-        return;
-      const double a     = scene.stance().ellipse(scene.static_load()).semi_axis_x,
-                   least = 1.25 * a + 2. * scene.mesh.finest_cell;
-      require(window_margin(scene) >= least * (1. - 1e-9),
-              "'Mesh/Window margin (mm)' " + text_in_mm(scene.mesh.window_margin) +
-                " must hold the patch and a quarter of it more; at least " + text_in_mm(least));
-      constexpr double shortest = 4.; // cells: a change costs more than so short a way
-      require(scene.motion.rolled_distance <= usual_window(scene) ||
-                usual_window(scene) >= shortest * scene.mesh.finest_cell * (1. - 1e-9),
-              "'Mesh/Window length (mm)' " + text_in_mm(scene.mesh.window_length) +
-                " must be at least four cells, " + text_in_mm(shortest * scene.mesh.finest_cell));
-      const std::string keeps = keeps_mesh(scene);
-      require(keeps.empty(), "'Mesh/Window' cannot be had with " + keeps + ": its mesh must stay");
-    }
-
     void check_mesh(const Scene &scene)
     {
       const reference::HertzEllipse ellipse = scene.stance().ellipse(scene.static_load());
@@ -402,6 +384,25 @@ namespace tread
     require(scene.peak_stress.half_width <= widest,
             "'Peak stress/Half width (mm)' " + text_in_mm(scene.peak_stress.half_width) +
               " exceeds that of rail or wheel, " + text_in_mm(widest));
+  }
+
+
+  void check_window(const Scene &scene)
+  {
+    if (!has_window(scene))
+      return;
+    const double a     = scene.stance().ellipse(scene.static_load()).semi_axis_x,
+                 least = 1.25 * a + 2. * scene.mesh.finest_cell;
+    require(window_margin(scene) >= least * (1. - 1e-9),
+            "'Mesh/Window margin (mm)' " + text_in_mm(scene.mesh.window_margin) +
+              " must hold the patch and a quarter of it more; at least " + text_in_mm(least));
+    constexpr double shortest = 4.; // cells: a change costs more than so short a way
+    require(scene.motion.rolled_distance <= usual_window(scene) ||
+              usual_window(scene) >= shortest * scene.mesh.finest_cell * (1. - 1e-9),
+            "'Mesh/Window length (mm)' " + text_in_mm(scene.mesh.window_length) +
+              " must be at least four cells, " + text_in_mm(shortest * scene.mesh.finest_cell));
+    const std::string keeps = keeps_mesh(scene);
+    require(keeps.empty(), "'Mesh/Window' cannot be had with " + keeps + ": its mesh must stay");
   }
 
 

@@ -94,7 +94,7 @@ namespace tread
       return material.yield_stress > 0. || !material.plastic_zones.empty();
     };
     for (const auto &[what, is_there] : std::initializer_list<std::pair<const char *, bool>>{
-           {"a wheelset in a position ('Wheelset')", scene.is_positioned()},
+           {"'Rail/Shape' slices", scene.rail.is_sliced()},
            {"several wheels", scene.n_wheels() > 1},
            {"several passages", scene.motion.passages > 1},
            {"'Motion/Longest distance (mm)'", scene.motion.longest_distance > 0.},

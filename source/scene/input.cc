@@ -87,7 +87,7 @@ namespace tread
                                             : "'Wheel/Mass (kg)' and 'Vehicle/Sprung mass (kg)' press") +
               " a wheel with " + text_of(1e-3 * static_load()) + " kN; at most " +
               text_of(1e-3 * largest_load));
-    if (time_stepping.levels > 1 && solid.mass_damping == 0.)
+    if (time_stepping.levels > 1 && (solid.mass_damping == 0. || mesh.window == WindowUse::always))
       time_stepping.courant_number =
         std::min(time_stepping.courant_number, DynamicsParameters::largest_courant_with_levels);
     note_files(input, *this);

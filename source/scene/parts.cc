@@ -136,8 +136,11 @@ namespace tread
     const double patch = scene.stance().ellipse(scene.static_load()).semi_axis_x;
     // Of a window what its finest cells feel of the wheel, which its neighbours feel too at the borders.
     const Scene::Range stretch = windows(scene).at(window);
-    return {stretch.begin - patch,
-            (has_window(scene) ? stretch.end : scene.meshed_end()) + patch,
+    // On slices patches go from piece to piece, others stay as far ahead of the axle, or behind it.
+    const double ahead =
+      scene.rail.is_sliced() ? 0. : scene.stance().paths().front().begin - scene.path_begin();
+    return {stretch.begin + ahead - patch,
+            (has_window(scene) ? stretch.end : scene.meshed_end()) + ahead + patch,
             scene.stance().patch_y(),
             scene.output.strip_half_width,
             patch,

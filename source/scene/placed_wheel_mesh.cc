@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -101,10 +102,14 @@ namespace tread
       return all;
     }
 
+    constexpr Scene::Range everywhere{-std::numeric_limits<double>::infinity(),
+                                      std::numeric_limits<double>::infinity()};
+
     /// The finest cells at a patch on one of the bodies. @param x_reference of its reference point at the
     /// start
     /// @param s, s_middle parameters of the body's profile there and in the middle of its block
     /// @param way that the patch goes from there along the body (m)
+    /// @param window where cells are fine at present, as ways of the patch's middle from there (m)
     FineZone zone_of(const Scene             &scene,
                      const WheelPatch        &patch,
                      const ProfileCurve      &profile,
@@ -112,7 +117,8 @@ namespace tread
                      const double             s,
                      const double             s_middle,
                      const double             way,
-                     const Wandering::OnBody &wanders = {})
+                     const Wandering::OnBody &wanders = {},
+                     const Scene::Range      &window  = everywhere)
     {
       // Contact that a plane does not stand for may reach farther than in one.
       const double wider =
@@ -126,6 +132,8 @@ namespace tread
       zone.finest_cell_size = scene.mesh.finest_cell;
       zone.x_begin          = x - beyond_path(scene, r) + wanders.x[0];
       zone.x_end            = x + way + beyond_path(scene, r) + wanders.x[1];
+      zone.window_begin     = x + window.begin + wanders.x[0];
+      zone.window_end       = x + window.end + wanders.x[1];
       zone.y_middle         = 0.5 * (begin + end + wanders.s[0] + wanders.s[1]) - s_middle;
       zone.half_width = std::max(scene.mesh.fine_half_width, wider * half_width + scene.mesh.finest_cell +
                                                                0.5 * (wanders.s[1] - wanders.s[0]));
@@ -291,8 +299,9 @@ namespace tread
     class BlocksOfWheelset
     {
     public:
-      BlocksOfWheelset(const Scene &scene, const PlacedWheel &wheel)
+      BlocksOfWheelset(const Scene &scene, const PlacedWheel &wheel, const FineWindow &window)
         : scene(scene)
+        , window(window)
         , surfaces(wheel.surfaces)
         , sides(wheel.sides())
         , slices(wheel.way())
@@ -353,9 +362,10 @@ namespace tread
         const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
         std::vector<FineZone> zones;
         for (const WheelPatch &patch : patches)
-          zones.push_back(zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
-                                  parameter_of(patch), middle.s, scene.motion.meshed_distance(),
-                                  wanders.rail));
+          zones.push_back(
+            zone_of(scene, patch, profile, scene.path_begin() + patch.region.reference[0],
+                    parameter_of(patch), middle.s, scene.motion.meshed_distance(), wanders.rail,
+                    {window.rail_begin - scene.path_begin(), window.rail_end - scene.path_begin()}));
         require_on_profile(section, zones,
                            scene.rail.measured_head.empty() ? "Rail/Profile" : "Rail/Measured head",
                            scene.guidance.kind == Guidance::file);
@@ -441,13 +451,13 @@ namespace tread
         const Wandering       wanders = wandering(scene, surfaces, side.is_mirrored);
         std::vector<FineZone> zones;
         double                begin = 1e300, end = -1e300;
-        const double          way = scene.motion.meshed_distance();
+        const double          way = way_along_block(radius), per_tread = radius / scene.wheel.radius;
         for (const WheelPatch &patch : patches)
           {
             const double arc = radius * patch.wheel_angle;
             if (slices.pieces.empty())
-              zones.push_back(
-                zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, way, wanders.wheel));
+              zones.push_back(zone_of(scene, patch, profile, arc, patch.wheel_s, middle.s, way, wanders.wheel,
+                                      {per_tread * window.tread_begin, per_tread * window.tread_end}));
             begin = std::min(begin, arc + wanders.wheel.x[0]);
             end   = std::max(end, arc + wanders.wheel.x[1]);
           }
@@ -479,7 +489,20 @@ namespace tread
           scene.mesh.coarsest_cell, zones);
       }
 
+      /// How far a patch goes along the wheel's block, whose arcs have this radius, m. Cells are fine a
+      /// quarter of a half length before the patch, which is enough for ways of some patches.
+      double way_along_block(const double radius) const
+      {
+        constexpr double spare = 0.25, with_torque = 0.01;
+        const double     way = scene.motion.meshed_distance(),
+                     longer  = std::max(given_angular_velocity(scene) * radius / scene.motion.speed - 1.,
+                                       scene.motion.drive == Drive::torque ? with_torque : 0.);
+        return way +
+               std::max(0., longer * way - spare * scene.stance().ellipse(scene.static_load()).semi_axis_x);
+      }
+
       const Scene                          &scene;
+      const FineWindow                      window;
       const WheelOnRail                    &surfaces;
       const std::vector<PlacedWheel::Side> &sides;
       const WayOverSlices                  &slices;
@@ -487,9 +510,9 @@ namespace tread
   } // namespace
 
 
-  std::vector<Body> PlacedWheel::make_bodies(const FineWindow &) const
+  std::vector<Body> PlacedWheel::make_bodies(const FineWindow &window) const
   {
-    const BlocksOfWheelset blocks(scene, *this);
+    const BlocksOfWheelset blocks(scene, *this, window);
     return {blocks.rail(), blocks.wheel()};
   }
 } // namespace tread

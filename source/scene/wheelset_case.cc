@@ -260,6 +260,7 @@ namespace tread
             "per rad)', "
             "'Axle bending stiffness (MN m2)'): where it acts on it is not known");
     check_peak_stress(scene);
+    check_window(scene);
     recorded_cells(scene);
     without(scene.mesh.fine_from == scene.mesh.fine_to,
             "'Mesh/Fine from (mm)' and 'Fine to (mm)' must be equal");

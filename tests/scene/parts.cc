@@ -1300,6 +1300,65 @@ namespace scene_parts
   }
 
 
+  /// A window of fine cells of a wheelset in a position lies about its patch: behind the axle on the rail,
+  /// and on the wheel where the tread comes down to it.
+  void check_window_of_wheelset(tests::Check &check)
+  {
+    Settings settings{
+      "Rail/Inclination=1:40",    "Wheel/Tread profile=S1002",       "Wheelset/Lateral shift (mm)=6",
+      "Wheelset/Yaw (mrad)=14.4", "Wheelset/Roll (mrad)=-0.6272",    "Contact/Friction coefficient=0",
+      "Motion/Creepage=0",        "Motion/Rolled distance (mm)=200", "Mesh/Finest cell (mm)=0.7",
+      "Mesh/Window=true",         "Mesh/Window length (mm)=20"};
+    settings.insert(settings.end(), vehicle.begin(), vehicle.end());
+    const auto scene = scene_of(settings);
+    // The fifth window, where the wheel has turned as it rolls.
+    const double            tread = 82e-3, margin = window_margin(*scene);
+    const FineWindow        window = fine_window(*scene, 4, tread);
+    const std::vector<Body> bodies = scene->stance().make_bodies(window);
+    check.absolute("window of a wheelset: begin on the rail, mm", 1e3 * window.rail_begin,
+                   1e3 * (scene->path_begin() + 80e-3 - margin), 1e-9);
+    const WheelPatch &patch    = scene->placed_wheel().patches().front();
+    const auto        of_rail  = scene->stance().footprints().front();
+    const double      ahead    = 0.5 * (of_rail.x_begin + of_rail.x_end);
+    const Vector3     axle     = Vector3{scene->path_begin(), 0., 0., 0.} + scene->placed_wheel().middle();
+    const auto       &position = scene->placed_wheel().contact.position;
+    // A roll about x that takes the own side down, then a yaw about what was the vertical.
+    const Vector3 forwards{std::cos(position.yaw), std::cos(position.roll) * std::sin(position.yaw),
+                           -std::sin(position.roll) * std::sin(position.yaw), 0.},
+      down{0., -std::sin(position.roll), -std::cos(position.roll), 0.};
+    // Stretches of the middle lines of both blocks on which cells are finest, by how far the wheel has rolled
+    // when they are under it.
+    double range[2][2] = {{1., -1.}, {1., -1.}};
+    for (unsigned int body = 0; body < 2; ++body)
+      for (double x = scene->rail_begin(); x < scene->rail_end(); x += 0.1e-3)
+        {
+          const double along = body == 0 ? x : x - scene->path_begin();
+          if (bodies[body].wanted_cell_size({along, 0., -1e-6}) > 0.71e-3)
+            continue;
+          const Point<3> p   = bodies[body].to_space({along, 0., 0.});
+          const Vector3  arm = Vector3{p[0], p[1], p[2], 0.} - axle;
+          // On the wheel the middle of the patch is beside the reference point as it is on the rail.
+          const double way =
+            body == 0
+              ? p[0] - scene->path_begin() - ahead
+              : scene->wheel.radius * (std::atan2(dot(arm, forwards), dot(arm, down)) - patch.wheel_angle) -
+                  0.5 * (patch.solution.x_begin + patch.solution.x_end);
+          range[body][0] = std::min(range[body][0], way);
+          range[body][1] = std::max(range[body][1], way);
+        }
+    for (unsigned int body = 0; body < 2; ++body)
+      {
+        const std::string name =
+          std::string("window of a wheelset: fine on the ") + (body == 0 ? "rail" : "wheel");
+        check.absolute(name + " from, mm", 1e3 * range[body][0], 1e3 * ((body == 0 ? 80e-3 : tread) - margin),
+                       0.2);
+        check.absolute(
+          name + " to, mm", 1e3 * range[body][1],
+          1e3 * ((body == 0 ? 100e-3 : tread + (1. + largest_creepage(*scene)) * 20e-3) + margin), 0.2);
+      }
+  }
+
+
   /// A defect under a wheelset in a position: in the mesh and in the depth below it, and what the wheel rolls
   /// over.
   void check_defect_of_wheelset(tests::Check &check)
@@ -1544,6 +1603,7 @@ TREAD_TEST(scene_parts)(tests::Check &check, const tests::Arguments &)
   check_wheelset(check);
   check_defect_of_wheelset(check);
   check_deviation_of_wheelset(check);
+  check_window_of_wheelset(check);
   check_beyond_profile(check);
   check_touched_piece(check);
   check_figures_of_patches(check);

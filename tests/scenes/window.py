@@ -133,12 +133,32 @@ with tempfile.TemporaryDirectory() as folder:
     dry = must_end_well(execute_often([*arguments_of(SCENE, WINDOW), "--dry-run"], program)).stdout
     check.that("--dry-run says of which place it speaks", "4 places; cells, memory and time step are those of the first one" in dry)
 
+    # A wheelset in a position: the root of a flange, behind the axle, and both wheels on springs.
+    root = ["Mesh/Finest cell (mm)=0.42", "Motion/Rolled distance (mm)=12", "Scene/Density scale=1", "Solid/Mass damping (1 per s)=0", "Output/Write volume=false"]
+    of_root = [run(program, "curves/flange-root.prm", path(f"root-{name}"), root + more) for name, more in
+               (("whole", []), ("moving", ["Mesh/Window=true", "Mesh/Window length (mm)=4"]))]
+    check.that("root of a flange: three windows with fewer cells", of_root[1]["windows"] == 3 and of_root[1]["cells"] < 0.9 * of_root[0]["cells"])
+    beside = [table(path(f"root-{name}"), "history.csv") for name in ("moving", "whole")]
+    for column, allowed in (("normal_force_N", 6e-4), ("longitudinal_force_N", 3e-3), ("lateral_force_N", 2e-3)):
+        check.below(f"root of a flange: {column}, largest difference from all cells fine", np.abs(differences(*beside, column)).max(), allowed)
+    check.energy("root of a flange: ", of_root[1], 3e-3)
+    strips = [rows_of(path(f"root-{name}"), "strip.csv") for name in ("whole", "moving")]
+    check.that("root of a flange: as many columns of the strip", len(strips[0]) == len(strips[1]) > 20)
+    check.below("root of a flange: strip, largest difference over the largest", max(abs(a["von_mises_MPa"] - b["von_mises_MPa"]) for a, b in zip(*strips)) / max(row["von_mises_MPa"] for row in strips[0]), 0.02)
+    both = ["Motion/Rolled distance (mm)=36", "Output/Write volume=false"]
+    whole, moving = (run(program, "curves/klingel.prm", path(f"both-{name}"), both + more, ranks) for name, more, ranks in
+                     (("whole", [], 1), ("moving", ["Mesh/Window=true", "Mesh/Window length (mm)=15"], 2)))
+    check.that("both wheels: three windows", moving["windows"] == 3)
+    for key, allowed in (("normal_force_N", 1e-4), ("max_pressure_Pa", 1e-3)):
+        check.relative(f"both wheels: {key} beside all cells fine", moving[key], whole[key], allowed)
+
     # Where the mesh must stay.
     for words, setting in (("'Damage/Record'", "Damage/Record=true"), ("Peak stress", "Peak stress/Record=true"),
                            ("steel that yields", "Rail/Yield stress (MPa)=400"), ("several passages", "Motion/Passages=2"),
                            ("'Output/Cells'", "Output/Cells=0 0 1"), ("Reproducible", "Scene/Reproducible=true"),
-                           ("Window margin", "Mesh/Window margin (mm)=5"), ("four cells", "Mesh/Window length (mm)=5"), ("position", "Wheelset/Lateral shift (mm)=0")):
+                           ("Window margin", "Mesh/Window margin (mm)=5"), ("four cells", "Mesh/Window length (mm)=5")):
         check.refused(f"a window with {setting}", program, SCENE, path("refused"), WINDOW + [setting], [words])
+    check.refused("a window over slices", program, "crossing/uk-56E1-nose.prm", path("refused"), ["Mesh/Window=true"], ["'Rail/Shape' slices"])
     without = run(program, SCENE, path("unused"), COARSE + ["Motion/Rolled distance (mm)=4", "Mesh/Window length (mm)=10"])
     check.that("a length without a window is named", any("Window length" in line for line in without["unused_parameters"]))
 check.exit()

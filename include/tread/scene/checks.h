@@ -17,6 +17,7 @@ namespace tread
 
   void check_motion(const Scene &scene);
   void check_peak_stress(const Scene &scene);
+  void check_window(const Scene &scene);
   void check_plasticity(const Scene &scene);
   void check_ratcheting(const Scene &scene);
   void check_numerics(const Scene &scene);

@@ -8,8 +8,8 @@ namespace tread
     Section section(table, "Time stepping");
 
     section.add("Courant number", courant_number,
-                "Time step over the critical one. With 'Levels' above 1 and no mass damping it is at most "
-                "0.9, because longer steps resonate on some meshes.",
+                "Time step over the critical one. With 'Levels' above 1 and no mass damping, or with "
+                "'Mesh/Window' true, it is at most 0.9, because longer steps resonate on some meshes.",
                 Number(0.01, 1.));
     section.add(
       "Levels", levels,
