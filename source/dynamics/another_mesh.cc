@@ -53,10 +53,15 @@ namespace tread
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
       {
         // Where one mesh has a chord and the other the surface.
-        const Vector3 off = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.} - moved[2][i];
-        const int     carrier = carrier_of(i);
-        state.set_position(i, moved[0][i] + (carrier >= 0 ? parts.carriers()[carrier]->turned(off) : off));
-        state.v[i] = moved[1][i];
+        Vector3   off     = Vector3{mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2], 0.} - moved[2][i];
+        const int carrier = carrier_of(i);
+        state.v[i]        = moved[1][i];
+        if (carrier >= 0)
+          {
+            off = parts.carriers()[carrier]->turned(off);
+            state.v[i] += cross(parts.motions()[carrier].turning, off);
+          }
+        state.set_position(i, moved[0][i] + off);
       }
     std::size_t next = 3;
     for (const auto &[name, values] : before.state.fields)
@@ -74,22 +79,26 @@ namespace tread
   }
 
 
-  double ExplicitDynamics::energy_of_added_mass() const
+  double ExplicitDynamics::energy_of_changing_mass() const
   {
     ReproducibleSum<double> sum;
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)
-      if (const int carrier = carrier_of(i);
-          carrier >= 0 && inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i))
-        {
-          const RigidMotion &motion = parts.motions()[carrier];
-          const Vector3      arm    = state.position(i) - motion.middle,
-                        off_axle    = arm - dot(motion.axle, arm) * motion.axle,
-                        v           = motion.velocity + cross(motion.turning, arm);
-          const double nominal      = parts.carriers()[carrier]->angular_velocity();
-          // What moves rigidly with it, and the potential that holds it on its circle.
-          sum.add(0.5 * (1. / inverse_mass[i] - true_mass[i]) *
-                  (dot(v, v) + nominal * nominal * dot(off_axle, off_axle)));
-        }
+      {
+        if (!(inverse_mass[i] > 0. && mesh.shared_nodes.is_owned(i)))
+          continue;
+        sum.add(parameters.gravity * true_mass[i] * state.position(i)[2]);
+        if (const int carrier = carrier_of(i); carrier >= 0)
+          {
+            const RigidMotion &motion = parts.motions()[carrier];
+            const Vector3      arm    = state.position(i) - motion.middle,
+                          off_axle    = arm - dot(motion.axle, arm) * motion.axle,
+                          v           = motion.velocity + cross(motion.turning, arm);
+            const double nominal      = parts.carriers()[carrier]->angular_velocity();
+            // What moves rigidly with it, and the potential that holds it on its circle.
+            sum.add(0.5 * (1. / inverse_mass[i] - true_mass[i]) *
+                    (dot(v, v) + nominal * nominal * dot(off_axle, off_axle)));
+          }
+      }
     return sum.value(mesh.comm);
   }
 
@@ -117,8 +126,9 @@ namespace tread
     books.go_on_from(before.books, damping_power);
     spent = before.spent;
     // A chord has less mass than the arc. The hub makes up for it, but not for what density scaling makes of
-    // it: that comes with the speed of the wheel, and is no loss of its cells' motion.
-    const double added = energy_of_added_mass() - before.energy_of_added_mass(),
+    // it: that comes with the speed of the wheel, and is no loss of its cells' motion. Nor is the height at
+    // which mass comes and goes.
+    const double added = energy_of_changing_mass() - before.energy_of_changing_mass(),
                  lost  = ledger().residual() - unaccounted + added;
     books.count_window(lost, added);
   }

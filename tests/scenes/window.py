@@ -52,7 +52,7 @@ with tempfile.TemporaryDirectory() as folder:
     places = [1e3 * of_moving["position_m"][k + 1] + 40. for k in np.flatnonzero(np.diff(loss))]
     check.that("the loss changes at 10, 20 and 30 mm", len(places) == 3 and all(0. <= at - due <= 0.6 for at, due in zip(places, (10., 20., 30.))))
     check.absolute("the summary has the last row's loss, J", moving["window_loss_J"], loss[-1], 1e-9)
-    check.below("window loss over what was dissipated", moving["window_loss_J"] / moving["dissipated_work_J"], 1.3e-3)
+    check.below("window loss over what was dissipated", abs(moving["window_loss_J"] / moving["dissipated_work_J"]), 6e-4)
     check.that("but some was lost", abs(loss[-1]) > 1e-6)
     check.energy("", moving, 1e-3)
     stored = np.array([sum(row[name] for name in ("kinetic_energy_J", "internal_energy_J", "hourglass_energy_J", "frictional_work_J",
@@ -62,12 +62,12 @@ with tempfile.TemporaryDirectory() as folder:
 
     # With added density: the mass that chords lack is not taken for a loss.
     scaled = run(program, SCENE, path("scaled"), WINDOW + ["Scene/Density scale=25"])
-    # 0.003 was found, and with cells of 1.3 mm 0.008, and 0.87 where the kinetic energy of that mass is booked without its centrifugal potential.
+    # 0.005 was found, and with cells of 1.3 mm 0.006, and 0.87 where the kinetic energy of that mass is booked without its centrifugal potential.
     check.below("density scale 25: window loss over what was dissipated", scaled["window_loss_J"] / scaled["dissipated_work_J"], 0.007)
-    # 0.048 was found with four times as much mass.
-    heavy = run(program, SCENE, path("heavy"), WINDOW + ["Mesh/Finest cell (mm)=1.3", "Scene/Density scale=100"])
-    warned = [sum("changes of the window" in line for line in summary["warnings"]) for summary in (moving, scaled, heavy)]
-    check.that("a loss above 2 % is told of", warned == [0, 0, 1] and abs(heavy["window_loss_J"] / heavy["dissipated_work_J"]) > 0.02)
+    # In free rolling little is dissipated, and 0.21 was found.
+    free = run(program, SCENE, path("free"), WINDOW + ["Scene/Density scale=25", "Motion/Traction coefficient=0"])
+    warned = [sum("changes of the window" in line for line in summary["warnings"]) for summary in (moving, scaled, free)]
+    check.that("a loss above 2 % is told of", warned == [0, 0, 1] and abs(free["window_loss_J"] / free["dissipated_work_J"]) > 0.02)
 
     # Ctrl-C in the second window and on to the end.
     run_stopped(program, SCENE, path("stopped"), WINDOW, 50)
@@ -79,8 +79,9 @@ with tempfile.TemporaryDirectory() as folder:
         check.relative(f"stopped and resumed: {key}", resumed[key], moving[key], 1e-12)
     check.that("stopped and resumed: the same strip", rows_of(path("stopped"), "strip.csv") == rows_of(path("moving"), "strip.csv"))
     one, two = (run(program, SCENE, path(f"on-{ranks}"), [*WINDOW, "Motion/Rolled distance (mm)=12", "Mesh/Window length (mm)=7.5"], ranks) for ranks in (1, 2))
-    for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "window_loss_J", "frictional_work_J"):
+    for key in ("normal_force_N", "longitudinal_force_N", "max_pressure_Pa", "creepage", "frictional_work_J"):
         check.relative(f"two ranks, with friction: {key}", two[key], one[key], 1e-6)
+    check.absolute("two ranks, with friction: window loss over what was dissipated", *(of["window_loss_J"] / of["dissipated_work_J"] for of in (two, one)), 1e-8)
 
     # A small wheel that rolls more than a turn is a ring, and does what it does on a sector.
     small = ["Mesh/Finest cell (mm)=1.25", "Mesh/Fine half width (mm)=8", "Motion/Speed (km per h)=300", "Wheel/Radius (mm)=100", "Wheel/Mass (kg)=100", "Vehicle/Sprung mass (kg)=6000", "Wheel/Sector width (mm)=60", "Wheel/Sector thickness (mm)=30",

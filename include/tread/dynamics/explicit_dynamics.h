@@ -133,9 +133,10 @@ namespace tread
   private:
     /// Set the time step, the inverse masses and the pairs in contact.
     void set_inertia();
-    /// Energy that the mass added by density scaling has by the rigid motion of carried bodies, and the
-    /// potential by which its centrifugal force is compensated, J. Collective.
-    double energy_of_added_mass() const;
+    /// Energy of mass that comes and goes as chords become arcs, J: that of density scaling has the rigid
+    /// motion of carried bodies and the potential by which its centrifugal force is compensated, and all mass
+    /// has its height. Collective.
+    double energy_of_changing_mass() const;
     /// Take over the motion of the nodes. @see go_on_from
     void take_nodes(ExplicitDynamics &before);
     /// Change of a node's velocity by the rigid turning of its body in half of its step, m/s. @param
