@@ -57,10 +57,15 @@ def counted(scene: str, settings: dict, ranks: int, folder: str) -> dict:
     return {**summary, **counts}
 
 
+def fastest(runs: list[dict]) -> dict:
+    return min(runs, key=lambda run: steps_seconds(run) / run["steps"])
+
+
 def alone(scene: str, settings: dict, folder: str) -> dict:
-    """One of as many runs on one rank as there are cores, at the same time: the ranks of a run have no more of the machine."""
+    """One of as many runs on one rank as there are cores, at the same time: the ranks of a run have no more of the machine. Its pace is that of the slower one."""
     with ThreadPoolExecutor(CORES) as pool:
-        return list(pool.map(lambda k: counted(scene, settings, 1, f"{folder}-1-{k}"), range(CORES)))[0]
+        runs = list(pool.map(lambda k: counted(scene, settings, 1, f"{folder}-{k}"), range(CORES)))
+    return max(runs, key=lambda run: steps_seconds(run) / run["steps"])
 
 
 def step_of(one: dict, run: dict, ranks: int, latency: float, bandwidth: float, growth: float = 1.) -> dict:
@@ -80,16 +85,19 @@ def main() -> None:
     parser.add_argument("--bandwidth", type=float, default=1e10, metavar="BYTES", help="of a rank, in a second (default 1e10)")
     parser.add_argument("--own-latency", type=float, default=7e-7, metavar="S", help="the same of this machine (default 7e-7)")
     parser.add_argument("--own-bandwidth", type=float, default=4e9, metavar="BYTES", help="of this machine (default 4e9)")
+    parser.add_argument("--turns", type=int, default=3, metavar="N", help="runs on no more ranks than cores are made so often, of which the fastest counts (default 3)")
     parser.add_argument("--scenes", type=int, default=len(SCENES), metavar="N", help="the first N only")
     arguments = parser.parse_args()
     summaries, count_rows, rows = [], [], []
     for name, (scene, settings) in list(SCENES.items())[:arguments.scenes]:
         folder = os.path.join(arguments.results, name.partition(",")[0].replace(" ", "-"))
-        one = alone(scene, settings, folder)
+        # In turn, so that what slows the machine down for some time does so for all.
+        turns = [(alone(scene, settings, f"{folder}-1-{turn}"), counted(scene, settings, CORES, f"{folder}-{CORES}-{turn}")) for turn in range(arguments.turns)]
+        one, of_cores = (fastest(list(runs)) for runs in zip(*turns))
         summaries.append(one)
         pace = {}
         for ranks in (1, *(ranks for ranks in RANKS if ranks <= arguments.ranks)):
-            run = counted(scene, settings, ranks, f"{folder}-{ranks}") if ranks > 1 else one
+            run = one if ranks == 1 else of_cores if ranks == CORES else counted(scene, settings, ranks, f"{folder}-{ranks}")
             if ranks > 1:
                 summaries.append(run)
                 count_rows.append([name, number(run["cells"]), str(ranks), f"{run['imbalance_of_cost']:.2f}", str(run["ranks_of_contact"]), f"{run['messages']:.1f}",

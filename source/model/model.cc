@@ -149,7 +149,7 @@ namespace tread
                  "'Mesh/Fine half width (mm)' or change %s",
                  1e3 * (*place)[0], 1e3 * (*place)[1], 1e3 * (*place)[2],
                  (scene.guidance.kind != Guidance::rigid ? "where section 'Guidance' lets the wheelset go"
-                                                         : scene.stance().across_parameter())
+                                                         : scene.stance().words().across_parameter)
                    .c_str()));
       }
   }

@@ -104,6 +104,21 @@ namespace tread
       return "";
     }
 
+    /// What the wheel is not round by, inwards or outwards, that comes to the rail on the way, m.
+    double largest_deviation(const Scene &scene)
+    {
+      constexpr double       step    = 0.5e-3; // m
+      constexpr unsigned int n       = 8;      // across a patch
+      double                 largest = scene.shapes().largest_deviation;
+      for (const WheelStance::Footprint &tread : scene.stance().treads())
+        for (double way = tread.x_begin; way <= tread.x_end; way += step)
+          for (unsigned int i = 0; i <= n; ++i)
+            largest = std::max(
+              largest, std::abs(scene.shapes().surfaces.deviation(
+                         way / scene.wheel.radius, tread.y_begin + (tread.y_end - tread.y_begin) * i / n)));
+      return largest;
+    }
+
     std::string flange_back_elsewhere(const Scene &scene)
     {
       // A worn or rounded back is not known better.
@@ -356,7 +371,7 @@ namespace tread
         format("'Guidance/File' moves the wheelset across the track with up to %.3g m/s, which none does "
                "(above %g m/s): are its shifts in mm and its times in s?",
                scene.tables().wheelset_motion->largest_lateral_speed(), largest_lateral_speed));
-    if (!scene.shapes().is_round() && scene.stance().largest_deviation() < least_height)
+    if (!scene.shapes().is_round() && largest_deviation(scene) < least_height)
       list.push_back(
         "no part of 'Wheel/Deviation' comes to the rail: where the wheel rolls it is round within 2 "
         "um; change 'Wheel/Deviation pitch (deg)' or 'Motion/Rolled distance (mm)'");

@@ -160,39 +160,19 @@ namespace tread
   std::vector<WheelStance::Footprint> PlacedWheel::treads() const
   {
     std::vector<Footprint> all;
-    const auto             add = [&](const WheelPatch &patch, const double rolled) {
+    const auto             add = [&](const WheelPatch &patch, const double from, const double to) {
       const ProfileCurve::Place      at       = surfaces.wheel().at(patch.wheel_s);
       const reference::PlanarResult &solution = patch.solution;
-      const double                   cosine   = at.dy / std::hypot(at.dy, at.dz),
-                   arc                        = scene.wheel.radius * patch.wheel_angle + rolled;
-      all.push_back({arc + solution.x_begin, arc + solution.x_end, at.y + cosine * solution.y_begin,
-                     at.y + cosine * solution.y_end});
+      const double cosine = at.dy / std::hypot(at.dy, at.dz), arc = scene.wheel.radius * patch.wheel_angle;
+      all.push_back({arc + from + solution.x_begin, arc + to + solution.x_end,
+                     at.y + cosine * solution.y_begin, at.y + cosine * solution.y_end});
     };
     for (const WheelPatch &patch : sides().front().contact.patches)
-      add(patch, 0.);
+      add(patch, 0., slices.pieces.empty() ? scene.motion.meshed_distance() : 0.);
     for (const TouchedPiece &piece : slices.pieces)
       for (const TouchedPiece::Touch &touch : piece.touches)
-        add(touch.patch, touch.axle - scene.path_begin());
+        add(touch.patch, touch.axle - scene.path_begin(), touch.axle - scene.path_begin());
     return all;
-  }
-
-
-  double PlacedWheel::largest_deviation() const
-  {
-    constexpr double       step      = 0.5e-3; // m
-    constexpr unsigned int n         = 8;
-    const auto            &deviation = scene.shapes().surfaces.deviation;
-    double                 largest   = 0.;
-    for (const Footprint &patch : treads())
-      {
-        const double end = slices.pieces.empty() ? patch.x_end + scene.motion.meshed_distance() : patch.x_end;
-        for (double way = patch.x_begin; deviation && way <= end; way += step)
-          for (unsigned int i = 0; i <= n; ++i)
-            largest =
-              std::max(largest, std::abs(deviation(way / scene.wheel.radius,
-                                                   patch.y_begin + (patch.y_end - patch.y_begin) * i / n)));
-      }
-    return largest;
   }
 
 
@@ -467,22 +447,6 @@ namespace tread
   }
 
 
-  double PlacedWheel::beyond_round(const dealii::Point<3> &p,
-                                   const Place            &place,
-                                   const WheelPatch       &patch,
-                                   const double            start_x) const
-  {
-    const auto &deviation = scene.shapes().surfaces.deviation;
-    if (!deviation || patch.is_of_other_wheel)
-      return 0.;
-    const Vector3 arm   = Vector3{p[0] - start_x, p[1], p[2], 0.} - middle();
-    const double  angle = patch.wheel_angle + place.along / patch.rolling_radius,
-                 y      = dot(vector(WheelOnRail::axle(contact.position)), arm) - surfaces.wheel_origin_y();
-    const ProfileCurve::Place at = surfaces.wheel().at(patch.wheel_s);
-    return deviation(angle, y) * at.dy / std::hypot(at.dy, at.dz);
-  }
-
-
   std::vector<WheelStance::Place> PlacedWheel::places_under(const dealii::Point<3> &p,
                                                             const unsigned int      body) const
   {
@@ -588,7 +552,14 @@ namespace tread
                  })->patch;
       }
     Place place = place_in_wheel(p, *patch, start_x);
-    place.below += beyond_round(p, place, *patch, start_x);
+    if (const auto &deviation = scene.shapes().surfaces.deviation; deviation && !patch->is_of_other_wheel)
+      {
+        const Vector3 arm   = Vector3{p[0] - start_x, p[1], p[2], 0.} - middle();
+        const double  angle = patch->wheel_angle + place.along / patch->rolling_radius,
+                     y = dot(vector(WheelOnRail::axle(contact.position)), arm) - surfaces.wheel_origin_y();
+        const ProfileCurve::Place at = surfaces.wheel().at(patch->wheel_s);
+        place.below += deviation(angle, y) * at.dy / std::hypot(at.dy, at.dz);
+      }
     place.along += start_x + patch->region.reference[0];
     return place;
   }

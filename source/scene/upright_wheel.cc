@@ -114,9 +114,11 @@ namespace tread
   }
 
 
-  double UprightWheel::largest_deviation() const
+  std::vector<WheelStance::Footprint> UprightWheel::treads() const
   {
-    return scene.shapes().largest_deviation;
+    std::vector<Footprint> all = footprints();
+    all.front().x_end += scene.motion.meshed_distance();
+    return all;
   }
 
 

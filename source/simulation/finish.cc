@@ -258,7 +258,7 @@ namespace tread
     // Where nothing is steady, the figures of one instant say little.
     if (scene.shapes().are_smooth())
       std::printf("\n%s force %.2f kN (ripple %.2f %%), traction coefficient %.4f\n\n%s%s",
-                  scene.stance().load_direction().c_str(), 1e-3 * force[2], 100. * end_of_way.normal_ripple(),
+                  scene.stance().words().load_direction.c_str(), 1e-3 * force[2], 100. * end_of_way.normal_ripple(),
                   force[2] > 0. ? force[0] / force[2] : 0., compared.by_patch.c_str(),
                   report.summary.table().c_str());
     std::printf("\n%s%s%s", below.c_str(), compared.note.c_str(), compared.note.empty() ? "" : "\n");

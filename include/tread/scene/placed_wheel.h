@@ -81,8 +81,7 @@ namespace tread
     double factor_across(const Vector3 &place) const override;
     std::vector<std::pair<double, double>> loaded_lines() const override;
     std::vector<Footprint>                 footprints() const override;
-    std::vector<Footprint>                 treads() const override; ///< of all touches on slices
-    double                                 largest_deviation() const override;
+    std::vector<Footprint>                 treads() const override;
     double                                 reach_beside(const double) const override
     {
       return std::numeric_limits<double>::infinity(); // the surfaces lie close at other angles, too
@@ -97,13 +96,9 @@ namespace tread
     {
       return patches().size();
     }
-    std::string across_parameter() const override
+    Words words() const override
     {
-      return "'Wheelset/Lateral shift (mm)'";
-    }
-    std::string load_direction() const override
-    {
-      return "vertical";
+      return {"'Wheelset/Lateral shift (mm)'", "vertical"};
     }
 
     /// Of a rail of slices. @pre made of the scene alone
@@ -155,18 +150,13 @@ namespace tread
     std::vector<Path> paths_over(double begin, double end) const;
     /// How far a place of the rail is beside a path (m).
     double beside(const Path &path, const dealii::Point<3> &p) const;
-    /// Of the patch that rolls there; `along` is where this part of the tread meets the rail.
+    /// Of the patch that rolls there, below the tread with what it is not round by; `along` is where this
+    /// part of it meets the rail.
     Place place_in_wheel(const dealii::Point<3> &p, const Path &path, const double start_x) const;
 
     const WheelOnRail surfaces;
 
   private:
-    /// What the tread has beyond round over a place in the wheel, along the normal of a patch, m. @param
-    /// place, start_x of place_in_wheel()
-    double beyond_round(const dealii::Point<3> &p,
-                        const Place            &place,
-                        const WheelPatch       &patch,
-                        const double            start_x) const;
     /// Depth below the running surface with its defect, along the normal of a patch, m.
     double depth_under(const dealii::Point<3> &p, const WheelPatch &patch) const;
     /// Of slices, where a place is in the piece whose path is nearest.

@@ -34,13 +34,9 @@ namespace tread
     Strip              strip(const unsigned int body, const double begin, const double end) const override;
     bool               is_on_path(const dealii::Point<3> &p, const double cell) const override;
     double             factor_across(const Vector3 &place) const override;
-    std::vector<std::pair<double, double>> loaded_lines() const override;
-    std::vector<Footprint>                 footprints() const override;
-    std::vector<Footprint>                 treads() const override
-    {
-      return footprints();
-    }
-    double                                                   largest_deviation() const override;
+    std::vector<std::pair<double, double>>                   loaded_lines() const override;
+    std::vector<Footprint>                                   footprints() const override;
+    std::vector<Footprint>                                   treads() const override;
     double                                                   reach_beside(const double height) const override;
     std::vector<std::pair<std::string, std::vector<Island>>> parts_of_patches() const override;
     ContactNodeState in_contact_axes(const ContactNodeState &state, const double) const override
@@ -55,13 +51,9 @@ namespace tread
     {
       return 0;
     }
-    std::string across_parameter() const override
+    Words words() const override
     {
-      return "'Wheel/Lateral position (mm)'";
-    }
-    std::string load_direction() const override
-    {
-      return "normal";
+      return {"'Wheel/Lateral position (mm)'", "normal"};
     }
 
   private:

@@ -92,10 +92,9 @@ namespace tread
       double x_begin, x_end, y_begin, y_end;
     };
     virtual std::vector<Footprint> footprints() const = 0;
-    /// The same on the wheel: along the arc from its bottom, and over y as SceneShapes has its deviation, m.
+    /// What of the tread comes to the rail on all of the way: along the arc from the bottom at the start, and
+    /// over y as SceneShapes has its deviation, m.
     virtual std::vector<Footprint> treads() const = 0;
-    /// What the wheel is not round by, inwards or outwards, that comes to the rail on the way, m.
-    virtual double largest_deviation() const = 0;
     /// How far beside these patches the wheel touches a rail that is higher by this (m); infinite: anywhere.
     virtual double reach_beside(const double height) const = 0;
     /// The parts of the patches on the way, with the words for each patch.
@@ -110,8 +109,11 @@ namespace tread
     virtual unsigned int n_separate_patches() const = 0;
 
     /// What moves the wheel across the rail, and what its load's direction is called.
-    virtual std::string across_parameter() const = 0;
-    virtual std::string load_direction() const   = 0;
+    struct Words
+    {
+      std::string across_parameter, load_direction;
+    };
+    virtual Words words() const = 0;
   };
 } // namespace tread
 
